@@ -1,0 +1,1 @@
+//! Slews and detumbles of free-floating spacecraft.

@@ -1,0 +1,1 @@
+//! Free-floating base and chain of revolute joints.

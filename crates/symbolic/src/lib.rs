@@ -1,0 +1,1 @@
+//! Symbolic expressions compiled to SIMD batch functions.
