@@ -1,0 +1,28 @@
+# Every target works on a fresh clone: what the build needs is installed first where that is allowed.
+.PHONY: demo test bench bench-all fmt lint setup
+
+DEMO := out/demo
+
+demo: setup
+	cargo build --release --locked
+	cargo run --release --locked --quiet -- solve scenarios/slew_4dof.json --out $(DEMO)
+
+test: setup
+	cargo test --workspace --locked
+
+bench:
+	scripts/bench.sh
+
+bench-all:
+	scripts/bench.sh --all
+
+fmt:
+	cargo fmt --all
+
+lint: setup
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+setup:
+	@scripts/setup.sh
