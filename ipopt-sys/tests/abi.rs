@@ -33,6 +33,8 @@ fn declarations_match_the_installed_headers() {
     assert_eq!(printed, expected());
 }
 
+// `Bool` is an integer or a `bool`, by version.
+#[allow(clippy::useless_conversion)]
 fn expected() -> Vec<(&'static str, i32)> {
     let size = |bytes: usize| i32::try_from(bytes).unwrap();
     vec![
