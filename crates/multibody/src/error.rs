@@ -1,0 +1,124 @@
+//! What can be wrong with a multibody model.
+
+use std::fmt;
+
+/// The part of a system that an error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The free-floating base body.
+    Base,
+    /// The place where the arm is fixed to the base.
+    Mount,
+    /// A link, counted from zero at the base.
+    Link(usize),
+    /// The payload at the last origin.
+    Payload,
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Part::Base => write!(f, "base"),
+            Part::Mount => write!(f, "mount"),
+            Part::Link(index) => write!(f, "link {}", index + 1),
+            Part::Payload => write!(f, "payload"),
+        }
+    }
+}
+
+/// A model that no rigid-body system can have.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// The arm has no links.
+    #[error("the chain is empty: at least one link is needed")]
+    EmptyChain,
+    /// A number of the model is NaN or infinite.
+    #[error("{part}: {quantity} is {value}, a finite number is needed")]
+    NotFinite {
+        /// Whose number.
+        part: Part,
+        /// Name of the field.
+        quantity: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// The numbers are finite, a product or sum of them is not.
+    #[error("{part}: masses and lengths this large overflow")]
+    Overflow {
+        /// Where the arithmetic overflows.
+        part: Part,
+    },
+    /// A mass below zero.
+    #[error("{part}: mass_kg is {mass_kg}, zero or more is allowed")]
+    NegativeMass {
+        /// Whose mass.
+        part: Part,
+        /// The mass.
+        mass_kg: f64,
+    },
+    /// A base with no mass, so that the system may have none.
+    #[error("base: mass_kg is 0, more than zero is needed")]
+    MasslessBase,
+    /// A cube with no size.
+    #[error("base: the cube's side is {side_m} m, more than zero is needed")]
+    CubeSide {
+        /// The side length.
+        side_m: f64,
+    },
+    /// A body with moments of inertia and no mass.
+    #[error("{part}: has an inertia but no mass")]
+    InertiaWithoutMass {
+        /// Whose inertia.
+        part: Part,
+    },
+    /// An inertia matrix that differs from its transpose.
+    #[error(
+        "{part}: inertia_kg_m2[{row}][{column}] is {upper} but inertia_kg_m2[{column}][{row}] is \
+         {lower}, an inertia matrix is symmetric"
+    )]
+    NotSymmetric {
+        /// Whose inertia.
+        part: Part,
+        /// Row of the upper entry, from zero.
+        row: usize,
+        /// Column of the upper entry, from zero.
+        column: usize,
+        /// The entry above the diagonal.
+        upper: f64,
+        /// The entry below the diagonal.
+        lower: f64,
+    },
+    /// An inertia matrix with a principal moment that is too small.
+    #[error(
+        "{part}: the smallest principal moment of inertia_kg_m2 is {smallest_kg_m2}, it must be \
+         {}",
+        if *.zero_allowed { "zero or more" } else { "more than zero" }
+    )]
+    NotPositive {
+        /// Whose inertia.
+        part: Part,
+        /// The smallest eigenvalue.
+        smallest_kg_m2: f64,
+        /// True where a moment of zero is allowed (a thin rod has one).
+        zero_allowed: bool,
+    },
+    /// Principal moments that no distribution of mass has: one exceeds the sum of the others.
+    #[error(
+        "{part}: the largest principal moment of inertia_kg_m2 is {largest_kg_m2}, no body's \
+         exceeds the sum of the other two, {others_kg_m2}"
+    )]
+    TriangleInequality {
+        /// Whose inertia.
+        part: Part,
+        /// The largest eigenvalue.
+        largest_kg_m2: f64,
+        /// The sum of the other two.
+        others_kg_m2: f64,
+    },
+    /// The mount's matrix is not a rotation.
+    #[error("mount: the rotation matrix is off an orthonormal right-handed one by {deviation}")]
+    NotARotation {
+        /// Largest entry of `RᵀR − 1`, or 2 for a reflection.
+        deviation: f64,
+    },
+}
