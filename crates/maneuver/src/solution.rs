@@ -1,0 +1,209 @@
+//! What a solve hands back besides the trajectory: the contents of `solution.json`.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::verification::Verification;
+use crate::{file, files};
+
+/// Value of the field `schema`.
+pub const SCHEMA: &str = "righting.solution/1";
+
+/// The contents of `solution.json`.
+///
+/// A number that is not finite (the objective of a solve that broke down) is `null` in the file and
+/// NaN here.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Solution {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// The scenario with its system inline and every default filled in.
+    pub scenario: file::Scenario,
+    /// SHA-256 of the resolved scenario's compact JSON, hexadecimal.
+    pub scenario_sha256: String,
+    /// What computed it.
+    pub versions: Versions,
+    /// How the optimizer ended.
+    pub status: Status,
+    /// Value of the objective, in the scenario's weights.
+    #[serde(with = "finite_or_null")]
+    pub objective: f64,
+    /// Number of optimizer iterations.
+    pub iterations: usize,
+    /// Largest violation of any constraint of the nonlinear program, unscaled.
+    #[serde(with = "finite_or_null")]
+    pub constraint_violation: f64,
+    /// What the last node reached.
+    pub terminal: Terminal,
+    /// Wall-clock times.
+    pub timing_s: Timing,
+    /// Outcome of the independent check.
+    pub verification: Verification,
+    /// Detumble: no motion that stops the arm can leave less angular rate, deg/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound_deg_s: Option<f64>,
+    /// Detumble: how much of the initial angular rate the plan takes out, %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduction_percent: Option<f64>,
+    /// One record an iteration, the starting point first; of the last solve if there were several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<IterationRecord>,
+}
+
+/// What computed a solution.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Versions {
+    /// This program.
+    pub righting: String,
+    /// The optimizer.
+    pub ipopt: String,
+    /// The linear solver inside it, with its version where it has one.
+    pub linear_solver: String,
+}
+
+/// How the optimizer ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Status {
+    /// Converged to the tolerance.
+    Solved,
+    /// Converged to the looser, acceptable tolerance.
+    Acceptable,
+    /// Converged to a point of locally least infeasibility.
+    Infeasible,
+    /// Stopped by the iteration limit.
+    IterationLimit,
+    /// Stopped by the time limit.
+    TimeLimit,
+    /// Stopped by the user.
+    Interrupted,
+    /// The search direction became too small to make progress.
+    SearchDirectionTooSmall,
+    /// The iterates diverged.
+    Diverging,
+    /// The restoration phase failed.
+    RestorationFailed,
+    /// A function could not be evaluated.
+    EvaluationError,
+    /// The optimizer failed in any other way.
+    InternalError,
+}
+
+impl Status {
+    /// Whether the plan converged, and so deserves a check.
+    pub fn is_acceptable(self) -> bool {
+        matches!(self, Self::Solved | Self::Acceptable)
+    }
+}
+
+/// What the last node reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Terminal {
+    /// Norm of the vector part of the attitude error quaternion; 0 for a detumble.
+    #[serde(with = "finite_or_null")]
+    pub attitude_error: f64,
+    /// Angle of the attitude error, deg.
+    #[serde(with = "finite_or_null")]
+    pub attitude_error_deg: f64,
+    /// Norm of the base's angular rate, deg/s.
+    #[serde(with = "finite_or_null")]
+    pub angular_rate_deg_s: f64,
+    /// Norm of the joint rates, all joints together, deg/s.
+    #[serde(with = "finite_or_null")]
+    pub joint_rate_deg_s: f64,
+}
+
+/// Wall-clock times, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// Reading and checking the scenario.
+    pub load: f64,
+    /// Tracing, differentiating and compiling the stage functions.
+    pub trace: f64,
+    /// Finding the initial guess.
+    pub guess: f64,
+    /// Evaluating functions and derivatives, within `solve`.
+    pub evaluate: f64,
+    /// Factorising and solving linear systems, within `solve`.
+    pub linear_algebra: f64,
+    /// The optimizer, all told.
+    pub solve: f64,
+    /// The independent check.
+    pub verify: f64,
+    /// From the command to the files.
+    pub total: f64,
+}
+
+/// The optimizer after one iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct IterationRecord {
+    /// Number of the iteration; 0 is the starting point.
+    pub iteration: usize,
+    /// Objective.
+    #[serde(with = "finite_or_null")]
+    pub objective: f64,
+    /// Primal infeasibility, unscaled.
+    #[serde(with = "finite_or_null")]
+    pub primal_infeasibility: f64,
+    /// Dual infeasibility.
+    #[serde(with = "finite_or_null")]
+    pub dual_infeasibility: f64,
+    /// Barrier parameter µ.
+    #[serde(with = "finite_or_null")]
+    pub barrier_parameter: f64,
+    /// Primal step size.
+    #[serde(with = "finite_or_null")]
+    pub primal_step: f64,
+    /// Dual step size.
+    #[serde(with = "finite_or_null")]
+    pub dual_step: f64,
+}
+
+impl Solution {
+    /// Writes `solution.json`, whole or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if the folder is missing, read-only or full.
+    pub fn write_json(&self, file: &Path) -> Result<(), Error> {
+        files::replace(file, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, self)?;
+            writeln!(writer)
+        })
+    }
+
+    /// Reads `solution.json`.
+    ///
+    /// # Errors
+    /// Those of reading, and the JSON path of what is wrong in the file.
+    pub fn read_json(file: &Path) -> Result<Self, Error> {
+        let text = files::read(file, "a solution file", files::JSON_LIMIT_BYTES)?;
+        let mut source = serde_json::Deserializer::from_str(&text);
+        serde_path_to_error::deserialize(&mut source).map_err(|error| Error::NotJson {
+            file: file.to_owned(),
+            path: format!("{}: ", error.path()),
+            line: error.inner().line(),
+            column: error.inner().column(),
+            reason: error.inner().to_string(),
+        })
+    }
+}
+
+/// Non-finite numbers as `null`, which JSON has no other word for.
+pub(crate) mod finite_or_null {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        if value.is_finite() {
+            serializer.serialize_f64(*value)
+        } else {
+            serializer.serialize_none()
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    }
+}

@@ -1,0 +1,107 @@
+//! What the independent check of a trajectory found.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::solution::finite_or_null;
+
+/// Outcome of the independent check.
+///
+/// The first five numbers compare the trajectory with a second integration of the equations of
+/// motion from its first node and its controls alone.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Verification {
+    /// Whether every check passed.
+    pub passed: bool,
+    /// Largest change of the angular momentum along the trajectory's nodes, relative to the largest
+    /// momentum of the arm or of the system along it.
+    #[serde(with = "finite_or_null")]
+    pub momentum_drift: f64,
+    /// Largest angle between the trajectory's attitude and the second integration's, rad.
+    #[serde(with = "finite_or_null")]
+    pub attitude_mismatch: f64,
+    /// Largest difference in a joint angle, rad.
+    #[serde(with = "finite_or_null")]
+    pub joint_mismatch: f64,
+    /// Largest difference in the base's position, m.
+    #[serde(with = "finite_or_null")]
+    pub position_mismatch: f64,
+    /// Every check, the worst place of each.
+    pub checks: Vec<Check>,
+}
+
+/// One check at the place where it is closest to failing or fails most.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Check {
+    /// What was checked.
+    pub name: String,
+    /// The joint, link or pair of links, where the check has one: "joint 2", "link 3 and body".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
+    /// The value at the worst place.
+    #[serde(with = "finite_or_null")]
+    pub value: f64,
+    /// What the value must not exceed, or must not fall below.
+    pub limit: f64,
+    /// Which of the two.
+    pub sense: Sense,
+    /// How far past the limit still passes.
+    pub tolerance: f64,
+    /// Unit of value, limit and tolerance; empty for a pure number.
+    pub unit: String,
+    /// Time of the worst place, s, where the check has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
+    /// Whether it passed.
+    pub passed: bool,
+}
+
+/// Which side of its limit a value must be on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sense {
+    /// The value must not exceed the limit.
+    AtMost,
+    /// The value must not fall below the limit.
+    AtLeast,
+}
+
+impl Verification {
+    /// The checks that failed.
+    pub fn failures(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().filter(|check| !check.passed)
+    }
+
+    /// The check called `name`, if it was made.
+    pub fn check(&self, name: &str) -> Option<&Check> {
+        self.checks.iter().find(|check| check.name == name)
+    }
+}
+
+impl fmt::Display for Check {
+    /// One line, such as `joint angle between nodes: joint 2: 1.5712 rad at 12.35 s, at most 1.5708
+    /// ± 0.001 rad`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.name)?;
+        if let Some(subject) = &self.subject {
+            write!(f, "{subject}: ")?;
+        }
+        write!(f, "{:.6e}", self.value)?;
+        if let Some(time_s) = self.time_s {
+            write!(f, " at {time_s:.3} s")?;
+        }
+        let sense = match self.sense {
+            Sense::AtMost => "at most",
+            Sense::AtLeast => "at least",
+        };
+        write!(f, ", {sense} {:.6e}", self.limit)?;
+        if self.tolerance > 0.0 {
+            write!(f, " ± {:.1e}", self.tolerance)?;
+        }
+        if !self.unit.is_empty() {
+            write!(f, " {}", self.unit)?;
+        }
+        Ok(())
+    }
+}
