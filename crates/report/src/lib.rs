@@ -1,1 +1,30 @@
 //! Figures and summaries of solved maneuvers.
+//!
+//! Everything here reads results, a [`Solution`](righting_maneuver::Solution) with its
+//! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
+//! files hold.
+//!
+//! Figures are written as SVG by a small writer of their own rather than through a plotting crate:
+//! measured on the joints of a 7-joint arm (21 panels of 600 steps), plotters' SVG backend rounds
+//! every point to a whole pixel and spends an element on every dash, 710 kB in 6 300 elements
+//! against 170 kB in 650 here.
+#![forbid(unsafe_code)]
+
+mod asked;
+mod attitude;
+mod axis;
+mod error;
+mod figure;
+mod files;
+mod joints;
+mod number;
+mod panel;
+pub mod style;
+mod summary;
+mod svg;
+
+pub use attitude::attitude_svg;
+pub use error::ReportError;
+pub use files::write_whole;
+pub use joints::joints_svg;
+pub use summary::{status_phrase, summary, verification_summary};

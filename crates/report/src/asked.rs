@@ -1,0 +1,40 @@
+//! What a scenario asks for, in words and as an attitude.
+
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use righting_maneuver::file::{ManeuverType, Scenario};
+
+use crate::number::short;
+
+/// The maneuver in one phrase: "slew of 20° about [0.74, 0.02, 0.68] in 30 s".
+pub(crate) fn phrase(scenario: &Scenario) -> String {
+    let maneuver = &scenario.maneuver;
+    let duration = short(scenario.horizon.duration_s);
+    match maneuver.kind {
+        ManeuverType::Slew => {
+            let angle = short(maneuver.angle_deg.unwrap_or(f64::NAN));
+            let axis = triple(maneuver.axis.unwrap_or([f64::NAN; 3]));
+            format!("slew of {angle}° about {axis} in {duration} s")
+        }
+        ManeuverType::Detumble => {
+            let rate = triple(scenario.initial.angular_rate_deg_s.unwrap_or_default());
+            format!("detumble from {rate} °/s in {duration} s")
+        }
+    }
+}
+
+/// The attitude a slew is to reach, body → inertial; `None` for a detumble.
+pub(crate) fn target(scenario: &Scenario) -> Option<UnitQuaternion<f64>> {
+    let start = unit(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]));
+    let axis = Unit::try_new(Vector3::from(scenario.maneuver.axis?), f64::MIN_POSITIVE)?;
+    let angle = scenario.maneuver.angle_deg?.to_radians();
+    Some(start * UnitQuaternion::from_axis_angle(&axis, angle))
+}
+
+/// The rotation of a scalar-first quaternion of any length.
+pub(crate) fn unit([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+}
+
+fn triple(values: [f64; 3]) -> String {
+    format!("[{}]", values.map(short).join(", "))
+}

@@ -1,0 +1,168 @@
+//! What a person reads after a solve: asked, reached, proven, where.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use righting_maneuver::file::{Formulation, ManeuverType, SystemReference};
+use righting_maneuver::{Check, Sense, Solution, Status};
+
+use crate::asked;
+use crate::number::short;
+
+/// The text summary of a solve, ready to print.
+///
+/// `files` are the files written, listed at the end as given.
+pub fn summary(solution: &Solution, files: &[PathBuf]) -> String {
+    let mut text = String::new();
+    let mut line = |arguments: std::fmt::Arguments<'_>| {
+        text.write_fmt(arguments).expect("a string takes all that is written to it");
+        text.push('\n');
+    };
+    let scenario = &solution.scenario;
+    let steps = scenario.horizon.steps;
+    line(format_args!("{}: {}, {steps} steps", scenario.name, asked::phrase(scenario)));
+    if let SystemReference::Inline(system) = &scenario.system {
+        let form = match scenario.solver.formulation.unwrap_or_default() {
+            Formulation::Full => "full",
+            Formulation::Reduced => "reduced",
+        };
+        line(format_args!(
+            "  system   {}, {} joints, {form} form",
+            system.name,
+            system.links.len()
+        ));
+    }
+    line(format_args!(
+        "  solver   {} after {} iterations and {} s in all: objective {:.6e}",
+        status_phrase(solution.status),
+        solution.iterations,
+        short(solution.timing_s.total),
+        solution.objective,
+    ));
+    line(format_args!("  reached  {}", reached(solution)));
+    line(format_args!(""));
+    line(format_args!("{}", verdict(solution)));
+    for row in table(&solution.verification.checks) {
+        line(format_args!("  {row}"));
+    }
+    if !files.is_empty() {
+        line(format_args!(""));
+        line(format_args!("Files"));
+        for file in files {
+            line(format_args!("  {}", file.display()));
+        }
+    }
+    text
+}
+
+/// What the result of a check says, with the checks it rests on: the summary of `verify`.
+pub fn verification_summary(solution: &Solution) -> String {
+    let mut text = format!(
+        "{}: {}\n{}\n",
+        solution.scenario.name,
+        asked::phrase(&solution.scenario),
+        verdict(solution)
+    );
+    for row in table(&solution.verification.checks) {
+        text.push_str("  ");
+        text.push_str(&row);
+        text.push('\n');
+    }
+    text
+}
+
+/// How the optimizer ended, in words.
+pub fn status_phrase(status: Status) -> &'static str {
+    match status {
+        Status::Solved => "solved",
+        Status::Acceptable => "solved to the acceptable tolerance",
+        Status::Infeasible => "stopped at a point of least infeasibility",
+        Status::IterationLimit => "stopped at the iteration limit",
+        Status::TimeLimit => "stopped at the time limit",
+        Status::Interrupted => "interrupted",
+        Status::SearchDirectionTooSmall => "stopped, the search direction became too small",
+        Status::Diverging => "stopped, the iterates diverge",
+        Status::RestorationFailed => "stopped, the restoration phase failed",
+        Status::EvaluationError => "stopped, a function could not be evaluated",
+        Status::InternalError => "stopped by an internal error of the optimizer",
+        _ => "stopped",
+    }
+}
+
+fn reached(solution: &Solution) -> String {
+    let terminal = &solution.terminal;
+    let rate = short(terminal.angular_rate_deg_s);
+    let joints = short(terminal.joint_rate_deg_s);
+    match solution.scenario.maneuver.kind {
+        ManeuverType::Slew => format!(
+            "attitude error {} ({}°), base {rate} °/s, joints {joints} °/s",
+            short(terminal.attitude_error),
+            short(terminal.attitude_error_deg),
+        ),
+        ManeuverType::Detumble => {
+            let reduction = solution
+                .reduction_percent
+                .map(|percent| format!(", {} % less", short(percent)))
+                .unwrap_or_default();
+            let bound = solution
+                .bound_deg_s
+                .map(|bound| format!(" (no plan gets below {} °/s)", short(bound)))
+                .unwrap_or_default();
+            format!("base {rate} °/s{reduction}{bound}, joints {joints} °/s")
+        }
+    }
+}
+
+fn verdict(solution: &Solution) -> String {
+    let verification = &solution.verification;
+    let failed = verification.failures().count();
+    match (verification.passed, verification.checks.len()) {
+        (_, 0) => "Not verified: there was no plan to check".to_owned(),
+        (true, _) => "Verified: an independent integration agrees and every limit holds".to_owned(),
+        (false, all) => format!("NOT VERIFIED: {failed} of {all} checks failed"),
+    }
+}
+
+/// One aligned row a check, headed.
+fn table(checks: &[Check]) -> Vec<String> {
+    if checks.is_empty() {
+        return Vec::new();
+    }
+    let mut rows = vec![["", "check", "worst", "allowed", "margin", "where"].map(str::to_owned)];
+    rows.extend(checks.iter().map(check_cells));
+    let width = |column: usize| {
+        rows.iter().map(|row| row[column].chars().count()).max().unwrap_or_default()
+    };
+    let widths: [usize; 6] = std::array::from_fn(width);
+    let right_aligned = [false, false, true, true, true, false];
+    rows.iter()
+        .map(|row| {
+            let mut text = String::new();
+            for (i, cell) in row.iter().enumerate() {
+                let padding = " ".repeat(widths[i] - cell.chars().count());
+                let cells = if right_aligned[i] { [&padding, cell] } else { [cell, &padding] };
+                let gap = if i == 0 { "" } else { "  " };
+                text.extend([gap, cells[0], cells[1]]);
+            }
+            text.trim_end().to_owned()
+        })
+        .collect()
+}
+
+fn check_cells(check: &Check) -> [String; 6] {
+    let (sign, margin) = match check.sense {
+        Sense::AtMost => ("\u{2264}", check.limit - check.value),
+        Sense::AtLeast => ("\u{2265}", check.value - check.limit),
+    };
+    let unit = if check.unit.is_empty() { String::new() } else { format!(" {}", check.unit) };
+    let time = check.time_s.map(|time_s| format!("{} s", short(time_s)));
+    let place: Vec<String> = check.subject.iter().cloned().chain(time).collect();
+    [
+        if check.passed { "ok" } else { "FAILED" }.to_owned(),
+        check.name.clone(),
+        short(check.value),
+        format!("{sign} {}{unit}", short(check.limit)),
+        short(margin),
+        place.join(" at "),
+    ]
+}
