@@ -1,0 +1,131 @@
+//! The instruction list.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::op::{Binary, Unary};
+
+/// A register: [`LANES`](super::LANES) consecutive numbers of the workspace.
+pub(super) type Register = u32;
+
+/// What an instruction does with its operands a, b, c.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(super) enum Opcode {
+    Copy,
+    Unary(Unary),
+    Binary(Binary),
+    Select,
+}
+
+impl Opcode {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Opcode::Copy => "copy",
+            Opcode::Unary(op) => op.name(),
+            Opcode::Binary(op) => op.name(),
+            Opcode::Select => "select",
+        }
+    }
+
+    pub(super) fn operand_count(self) -> usize {
+        match self {
+            Opcode::Copy | Opcode::Unary(_) => 1,
+            Opcode::Binary(_) => 2,
+            Opcode::Select => 3,
+        }
+    }
+}
+
+#[derive(Copy, Clone, Debug)]
+pub(super) struct Instruction {
+    pub opcode: Opcode,
+    pub result: Register,
+    pub operands: [Register; 3],
+}
+
+/// The register file: inputs, then outputs, constants and temporaries.
+#[derive(Copy, Clone, Debug, Default)]
+pub(super) struct Layout {
+    pub inputs: usize,
+    pub outputs: usize,
+    pub constants: usize,
+    pub temporaries: usize,
+}
+
+impl Layout {
+    pub(super) fn registers(&self) -> usize {
+        self.inputs + self.outputs + self.constants + self.temporaries
+    }
+
+    pub(super) fn first_output(&self) -> usize {
+        self.inputs
+    }
+
+    pub(super) fn first_constant(&self) -> usize {
+        self.inputs + self.outputs
+    }
+
+    pub(super) fn first_temporary(&self) -> usize {
+        self.first_constant() + self.constants
+    }
+}
+
+/// A straight-line program over one register file. Every register index is below
+/// `layout.registers()`: [`Tape::new`] checks it, and the interpreter relies on it.
+#[derive(Clone, Debug)]
+pub(super) struct Tape {
+    pub layout: Layout,
+    pub constants: Vec<f64>,
+    pub instructions: Vec<Instruction>,
+}
+
+impl Tape {
+    pub(super) fn new(layout: Layout, constants: Vec<f64>, instructions: Vec<Instruction>) -> Self {
+        let count = layout.registers();
+        assert_eq!(constants.len(), layout.constants);
+        for instruction in &instructions {
+            let operands = &instruction.operands;
+            assert!((instruction.result as usize) < count);
+            assert!(operands.iter().all(|&operand| (operand as usize) < count));
+        }
+        Tape { layout, constants, instructions }
+    }
+
+    pub(super) fn kinds(&self) -> Vec<(&'static str, usize)> {
+        let mut counts = BTreeMap::new();
+        for instruction in &self.instructions {
+            *counts.entry(instruction.opcode.name()).or_insert(0) += 1;
+        }
+        let mut kinds: Vec<_> = counts.into_iter().collect();
+        kinds.sort_by_key(|&(name, count)| (std::cmp::Reverse(count), name));
+        kinds
+    }
+
+    fn register_name(&self, register: Register) -> String {
+        let register = register as usize;
+        let layout = &self.layout;
+        if register < layout.first_output() {
+            format!("in[{register}]")
+        } else if register < layout.first_constant() {
+            format!("out[{}]", register - layout.first_output())
+        } else if register < layout.first_temporary() {
+            format!("{:?}", self.constants[register - layout.first_constant()])
+        } else {
+            format!("r{}", register - layout.first_temporary())
+        }
+    }
+}
+
+impl fmt::Display for Tape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for instruction in &self.instructions {
+            let result = self.register_name(instruction.result);
+            write!(f, "  {result} = {}", instruction.opcode.name())?;
+            for &operand in &instruction.operands[..instruction.opcode.operand_count()] {
+                write!(f, " {}", self.register_name(operand))?;
+            }
+            writeln!(f)?;
+        }
+        Ok(())
+    }
+}
