@@ -1,0 +1,107 @@
+use std::ops::Range;
+
+/// How many of what a transcribed problem has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dimensions {
+    /// States per node, passive ones left out.
+    pub states: usize,
+    /// Controls per step.
+    pub controls: usize,
+    /// Path constraints per node after the first.
+    pub path: usize,
+    /// Constraints at the last node.
+    pub terminal: usize,
+    /// Steps N; nodes run from 0 to N.
+    pub steps: usize,
+}
+
+/// Where everything lives in the decision vector and in the constraint vector. Nothing else does
+/// index arithmetic on them.
+///
+/// ```text
+/// z = [u_0, x_1, u_1, x_2, …, u_{N−1}, x_N]                  (x_0 is data)
+/// g = [defect_0, c(x_1), defect_1, c(x_2), …, c(x_N), e(x_N)]
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    dimensions: Dimensions,
+}
+
+impl Layout {
+    /// The layout of a problem of these dimensions.
+    pub fn new(dimensions: Dimensions) -> Self {
+        Self { dimensions }
+    }
+
+    /// The dimensions it was made for.
+    pub fn dimensions(&self) -> Dimensions {
+        self.dimensions
+    }
+
+    /// Length of the decision vector.
+    pub fn variables(&self) -> usize {
+        self.dimensions.steps * self.node_stride()
+    }
+
+    /// Length of the constraint vector.
+    pub fn constraints(&self) -> usize {
+        self.dimensions.steps * self.row_stride() + self.dimensions.terminal
+    }
+
+    /// Where u_k is, k = 0…N−1.
+    pub fn control(&self, step: usize) -> Range<usize> {
+        let start = step * self.node_stride();
+        start..start + self.dimensions.controls
+    }
+
+    /// Where x_k is, k = 1…N.
+    pub fn state(&self, node: usize) -> Range<usize> {
+        let end = node * self.node_stride();
+        end - self.dimensions.states..end
+    }
+
+    /// Where x_{k+1} − F(x_k, u_k) is, k = 0…N−1.
+    pub fn defect(&self, step: usize) -> Range<usize> {
+        let start = step * self.row_stride();
+        start..start + self.dimensions.states
+    }
+
+    /// Where c(x_k) is, k = 1…N.
+    pub fn path(&self, node: usize) -> Range<usize> {
+        let end = node * self.row_stride();
+        end - self.dimensions.path..end
+    }
+
+    /// Where e(x_N) is.
+    pub fn terminal(&self) -> Range<usize> {
+        let start = self.dimensions.steps * self.row_stride();
+        start..start + self.dimensions.terminal
+    }
+
+    fn node_stride(&self) -> usize {
+        self.dimensions.states + self.dimensions.controls
+    }
+
+    fn row_stride(&self) -> usize {
+        self.dimensions.states + self.dimensions.path
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_tile_both_vectors() {
+        let dimensions = Dimensions { states: 5, controls: 2, path: 3, terminal: 4, steps: 7 };
+        let layout = Layout::new(dimensions);
+        let mut variables = vec![0; layout.variables()];
+        let mut rows = vec![0; layout.constraints()];
+        for k in 0..dimensions.steps {
+            layout.control(k).chain(layout.state(k + 1)).for_each(|i| variables[i] += 1);
+            layout.defect(k).chain(layout.path(k + 1)).for_each(|i| rows[i] += 1);
+        }
+        layout.terminal().for_each(|i| rows[i] += 1);
+        assert!(variables.iter().chain(&rows).all(|&count| count == 1));
+    }
+}

@@ -1,0 +1,437 @@
+use righting_ipopt::{Bounds, EvaluationError, Problem, TripletStructure};
+
+use crate::block::{Block, lanes};
+use crate::error::OcpError;
+use crate::grid::Grid;
+use crate::layout::{Dimensions, Layout};
+use crate::stage::{NodeFunction, StageFunctions};
+use crate::structure::{HessianStructure, JacobianStructure, Scatter};
+use crate::worker::{NodeWorkspace, StageStore, Worker};
+
+/// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`Layout`]
+/// for the order of its variables and constraints.
+pub struct MultipleShooting<'f> {
+    functions: &'f StageFunctions,
+    grid: Grid,
+    layout: Layout,
+    /// x_0, passive states left out.
+    initial: Vec<f64>,
+    full_initial: Vec<f64>,
+    jacobian: JacobianStructure,
+    hessian: HessianStructure,
+    worker: Worker,
+    store: StageStore,
+    /// The decision vector at which `store` was filled.
+    stored_at: Vec<f64>,
+}
+
+/// Rows of a decision or constraint vector by step and node.
+#[derive(Clone, Copy)]
+struct Rows<'a> {
+    layout: Layout,
+    initial: &'a [f64],
+    vector: &'a [f64],
+}
+
+impl<'a> Rows<'a> {
+    fn state(self, node: usize) -> &'a [f64] {
+        match node {
+            0 => self.initial,
+            _ => &self.vector[self.layout.state(node)],
+        }
+    }
+
+    fn control(self, step: usize) -> &'a [f64] {
+        &self.vector[self.layout.control(step)]
+    }
+}
+
+impl<'f> MultipleShooting<'f> {
+    /// Transcribes the problem behind `functions` on `grid` from the state `initial` (all states of
+    /// the problem, passive ones too).
+    ///
+    /// # Errors
+    /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when `initial` does not fit.
+    pub fn new(
+        functions: &'f StageFunctions,
+        grid: Grid,
+        initial: &[f64],
+    ) -> Result<Self, OcpError> {
+        if initial.len() != functions.all_states {
+            return Err(OcpError::Dimension {
+                what: "initial state",
+                expected: functions.all_states,
+                found: initial.len(),
+            });
+        }
+        if let Some((index, &value)) = initial.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            return Err(OcpError::NotFinite { what: "initial state", index, value });
+        }
+        let dimensions = Dimensions {
+            states: functions.states,
+            controls: functions.controls,
+            path: functions.path_bounds.len(),
+            terminal: functions.terminal_bounds.len(),
+            steps: grid.steps(),
+        };
+        Ok(Self {
+            functions,
+            grid,
+            layout: Layout::new(dimensions),
+            initial: functions.active.iter().map(|&i| initial[i]).collect(),
+            full_initial: initial.to_vec(),
+            jacobian: JacobianStructure::new(functions, grid.steps()),
+            hessian: HessianStructure::new(functions, grid.steps()),
+            worker: Worker::new(functions),
+            store: StageStore::new(functions, Block::count_for(grid.steps())),
+            stored_at: Vec::new(),
+        })
+    }
+
+    /// Where everything lives in the vectors.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The grid it was transcribed on.
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// The functions it evaluates.
+    pub fn functions(&self) -> &'f StageFunctions {
+        self.functions
+    }
+
+    /// x_0 without the passive states.
+    pub fn initial_state(&self) -> &[f64] {
+        &self.initial
+    }
+
+    /// x_0 with every state of the problem.
+    pub fn full_initial_state(&self) -> &[f64] {
+        &self.full_initial
+    }
+
+    fn steps(&self) -> usize {
+        self.grid.steps()
+    }
+
+    /// Evaluates ∂F/∂(x, u) of all steps at `z` into `values` (if any) and fills the store.
+    fn evaluate_steps(&mut self, z: &[f64], mut values: Option<&mut [f64]>) {
+        let Self { functions, layout, initial, jacobian, worker, store, grid, .. } = self;
+        let rows = Rows { layout: *layout, initial, vector: z };
+        let blocks = Block::cover(grid.steps());
+        for (block, mut stored) in blocks.zip(store.blocks_mut()) {
+            let computed = worker.step_jacobian(
+                functions,
+                block,
+                grid.step_s(),
+                |k| rows.state(k),
+                |k| rows.control(k),
+                &mut stored,
+            );
+            let Some(values) = values.as_deref_mut() else { continue };
+            for (lane, step) in block.items() {
+                let entry = |slot| jacobian.entry(step, slot);
+                scatter(values, &jacobian.step, entry, |index| lanes(computed, index)[lane]);
+            }
+        }
+        self.stored_at.clear();
+        self.stored_at.extend_from_slice(z);
+    }
+}
+
+/// Adds the computed values and the constants of one step or node to where they belong.
+fn scatter(
+    values: &mut [f64],
+    map: &Scatter,
+    entry: impl Fn(usize) -> Option<usize>,
+    computed: impl Fn(usize) -> f64,
+) {
+    for (index, &slot) in map.varying.iter().enumerate() {
+        if let Some(entry) = entry(slot) {
+            values[entry] += computed(index);
+        }
+    }
+    for &(slot, constant) in &map.constant {
+        if let Some(entry) = entry(slot) {
+            values[entry] += constant;
+        }
+    }
+}
+
+/// Evaluates a function of the last state alone; every lane holds the same point.
+fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
+    for (lanes, &value) in
+        workspace.input_mut(0).chunks_exact_mut(righting_symbolic::LANES).zip(state)
+    {
+        lanes.fill(value);
+    }
+}
+
+impl Problem for MultipleShooting<'_> {
+    fn dimensions(&self) -> righting_ipopt::Dimensions {
+        righting_ipopt::Dimensions {
+            variables: self.layout.variables(),
+            constraints: self.layout.constraints(),
+        }
+    }
+
+    fn bounds(&self, bounds: &mut Bounds) {
+        let functions = self.functions;
+        for k in 0..self.steps() {
+            let (control, state) = (self.layout.control(k), self.layout.state(k + 1));
+            let (defect, path) = (self.layout.defect(k), self.layout.path(k + 1));
+            bounds.x_lower[control.clone()].copy_from_slice(&functions.control_bounds.lower);
+            bounds.x_upper[control].copy_from_slice(&functions.control_bounds.upper);
+            bounds.x_lower[state.clone()].copy_from_slice(&functions.state_bounds.lower);
+            bounds.x_upper[state].copy_from_slice(&functions.state_bounds.upper);
+            bounds.g_lower[defect.clone()].fill(0.0);
+            bounds.g_upper[defect].fill(0.0);
+            bounds.g_lower[path.clone()].copy_from_slice(&functions.path_bounds.lower);
+            bounds.g_upper[path].copy_from_slice(&functions.path_bounds.upper);
+        }
+        let terminal = self.layout.terminal();
+        bounds.g_lower[terminal.clone()].copy_from_slice(&functions.terminal_bounds.lower);
+        bounds.g_upper[terminal].copy_from_slice(&functions.terminal_bounds.upper);
+    }
+
+    fn jacobian_structure(&self) -> TripletStructure {
+        self.jacobian.triplets(self.functions, &self.layout)
+    }
+
+    fn hessian_structure(&self) -> TripletStructure {
+        self.hessian.triplets(self.functions, &self.layout)
+    }
+
+    fn objective(&mut self, z: &[f64], _new_x: bool) -> Result<f64, EvaluationError> {
+        let steps = self.steps();
+        let rows = Rows { layout: self.layout, initial: &self.initial, vector: z };
+        let function = &self.functions.running.value;
+        let workspace = &mut self.worker.running.value;
+        let mut running = 0.0;
+        for block in Block::cover(steps) {
+            block.load(workspace.input_mut(0), self.functions.states, |k| rows.state(k));
+            block.load(workspace.input_mut(1), self.functions.controls, |k| rows.control(k));
+            function.evaluate_block(workspace);
+            let costs = lanes(workspace.output(0), 0);
+            running += block.items().map(|(lane, _)| costs[lane]).sum::<f64>();
+        }
+        let workspace = &mut self.worker.terminal_cost.value;
+        load_terminal(workspace, rows.state(steps));
+        self.functions.terminal_cost.value.evaluate_block(workspace);
+        Ok(self.grid.running_weight() * running + workspace.output(0)[0])
+    }
+
+    fn gradient(
+        &mut self,
+        z: &[f64],
+        _new_x: bool,
+        gradient: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        let (steps, states) = (self.steps(), self.functions.states);
+        let layout = self.layout;
+        let rows = Rows { layout, initial: &self.initial, vector: z };
+        gradient.fill(0.0);
+        let running = &self.functions.running;
+        let workspace = &mut self.worker.running.first;
+        for block in Block::cover(steps) {
+            block.load(workspace.input_mut(0), states, |k| rows.state(k));
+            block.load(workspace.input_mut(1), self.functions.controls, |k| rows.control(k));
+            running.first.evaluate_block(workspace);
+            let computed = workspace.output(1);
+            for (lane, step) in block.items() {
+                let mut next = 0;
+                for (&(_, column), constant) in
+                    running.jacobian.entries.iter().zip(&running.jacobian.constants)
+                {
+                    let value = constant.unwrap_or_else(|| {
+                        next += 1;
+                        lanes(computed, next - 1)[lane]
+                    });
+                    let variable = match column < states {
+                        true if step == 0 => continue,
+                        true => layout.state(step).start + column,
+                        false => layout.control(step).start + column - states,
+                    };
+                    gradient[variable] += self.grid.running_weight() * value;
+                }
+            }
+        }
+        let terminal = &self.functions.terminal_cost;
+        let workspace = &mut self.worker.terminal_cost.first;
+        load_terminal(workspace, rows.state(steps));
+        terminal.first.evaluate_block(workspace);
+        let mut next = 0;
+        for (&(_, column), constant) in
+            terminal.jacobian.entries.iter().zip(&terminal.jacobian.constants)
+        {
+            let value = constant.unwrap_or_else(|| {
+                next += 1;
+                lanes(workspace.output(1), next - 1)[0]
+            });
+            gradient[layout.state(steps).start + column] += value;
+        }
+        Ok(())
+    }
+
+    fn constraints(
+        &mut self,
+        z: &[f64],
+        _new_x: bool,
+        g: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        let (steps, functions, layout) = (self.steps(), self.functions, self.layout);
+        let rows = Rows { layout, initial: &self.initial, vector: z };
+        let path = &mut self.worker.path.value;
+        for block in Block::cover(steps) {
+            block.load(path.input_mut(0), functions.states, |k| rows.state(k + 1));
+            functions.path.value.evaluate_block(path);
+            for (lane, step) in block.items() {
+                for (index, row) in layout.path(step + 1).enumerate() {
+                    g[row] = lanes(path.output(0), index)[lane];
+                }
+            }
+        }
+        for block in Block::cover(steps) {
+            let h = self.grid.step_s();
+            let reached = self.worker.step_values(
+                functions,
+                block,
+                h,
+                |k| rows.state(k),
+                |k| rows.control(k),
+            );
+            for (lane, step) in block.items() {
+                for (index, row) in layout.defect(step).enumerate() {
+                    g[row] = rows.state(step + 1)[index] - lanes(reached, index)[lane];
+                }
+            }
+        }
+        let terminal = &mut self.worker.terminal.value;
+        load_terminal(terminal, rows.state(steps));
+        functions.terminal.value.evaluate_block(terminal);
+        for (index, row) in layout.terminal().enumerate() {
+            g[row] = lanes(terminal.output(0), index)[0];
+        }
+        Ok(())
+    }
+
+    fn jacobian(
+        &mut self,
+        z: &[f64],
+        _new_x: bool,
+        values: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        values.fill(0.0);
+        self.evaluate_steps(z, Some(values));
+        let Self { functions, layout, initial, jacobian, worker, .. } = self;
+        let steps = layout.dimensions().steps;
+        let rows = Rows { layout: *layout, initial, vector: z };
+        for block in Block::cover(steps) {
+            block.load(worker.path.first.input_mut(0), functions.states, |k| rows.state(k + 1));
+            functions.path.first.evaluate_block(&mut worker.path.first);
+            let computed = worker.path.first.output(1);
+            for (lane, step) in block.items() {
+                let entry = |slot| jacobian.entry(step, slot);
+                scatter(values, &jacobian.path, entry, |index| lanes(computed, index)[lane]);
+                for slot in jacobian.next_state.clone() {
+                    values[entry(slot).expect("the identity is in every step")] = 1.0;
+                }
+            }
+        }
+        load_terminal(&mut worker.terminal.first, rows.state(steps));
+        functions.terminal.first.evaluate_block(&mut worker.terminal.first);
+        let computed = worker.terminal.first.output(1);
+        let entry = |slot| Some(jacobian.terminal_start() + slot);
+        scatter(values, &jacobian.terminal, entry, |index| lanes(computed, index)[0]);
+        Ok(())
+    }
+
+    fn hessian(
+        &mut self,
+        z: &[f64],
+        _new_x: bool,
+        objective_factor: f64,
+        multipliers: &[f64],
+        _new_multipliers: bool,
+        values: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        if self.stored_at != z {
+            self.evaluate_steps(z, None);
+        }
+        values.fill(0.0);
+        let Self { functions, layout, initial, hessian, worker, store, grid, .. } = self;
+        let steps = grid.steps();
+        let rows = Rows { layout: *layout, initial, vector: z };
+        let running_factor = objective_factor * grid.running_weight();
+        let blocks = Block::cover(steps);
+        for (block, stored) in blocks.zip(store.blocks_mut()) {
+            let computed = worker.step_hessian(
+                functions,
+                block,
+                grid.step_s(),
+                |k| rows.control(k),
+                |k| &multipliers[layout.defect(k)],
+                &stored,
+            );
+            for (lane, node) in block.items() {
+                let entry = |slot| hessian.entry(node, slot);
+                scatter(values, &hessian.step, entry, |index| lanes(computed, index)[lane]);
+            }
+
+            let workspace = &mut worker.running.second;
+            block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
+            block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
+            workspace.input_mut(2).fill(running_factor);
+            functions.running.second.evaluate_block(workspace);
+            let computed = workspace.output(0);
+            for (lane, node) in block.items() {
+                let entry = |slot| hessian.entry(node, slot);
+                scatter(values, &hessian.running, entry, |index| lanes(computed, index)[lane]);
+            }
+
+            let workspace = &mut worker.path.second;
+            block.load(workspace.input_mut(0), functions.states, |k| rows.state(k + 1));
+            block.load(workspace.input_mut(1), functions.path_bounds.len(), |k| {
+                &multipliers[layout.path(k + 1)]
+            });
+            functions.path.second.evaluate_block(workspace);
+            let computed = workspace.output(0);
+            for (lane, step) in block.items() {
+                let entry = |slot| hessian.entry(step + 1, slot);
+                scatter(values, &hessian.path, entry, |index| lanes(computed, index)[lane]);
+            }
+        }
+        let mut add_terminal = |function: &NodeFunction,
+                                workspace: &mut NodeWorkspace,
+                                map: &Scatter,
+                                weights: &[f64]| {
+            let workspace = &mut workspace.second;
+            load_terminal(workspace, rows.state(steps));
+            for (lanes, &weight) in
+                workspace.input_mut(1).chunks_exact_mut(righting_symbolic::LANES).zip(weights)
+            {
+                lanes.fill(weight);
+            }
+            function.second.evaluate_block(workspace);
+            let computed = workspace.output(0);
+            let entry = |slot| hessian.entry(steps, slot);
+            scatter(values, map, entry, |index| lanes(computed, index)[0]);
+        };
+        add_terminal(
+            &functions.terminal_cost,
+            &mut worker.terminal_cost,
+            &hessian.terminal_cost,
+            &[objective_factor],
+        );
+        add_terminal(
+            &functions.terminal,
+            &mut worker.terminal,
+            &hessian.terminal,
+            &multipliers[layout.terminal()],
+        );
+        Ok(())
+    }
+}

@@ -1,0 +1,179 @@
+use righting_symbolic::Expr;
+
+use crate::error::OcpError;
+
+type StageMap = Box<dyn Fn(&[Expr], &[Expr]) -> Vec<Expr>>;
+type StageCost = Box<dyn Fn(&[Expr], &[Expr]) -> Expr>;
+type NodeMap = Box<dyn Fn(&[Expr]) -> Vec<Expr>>;
+type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
+
+/// A lower and an upper bound per component; infinities stand for "none".
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interval {
+    /// Lower bounds.
+    pub lower: Vec<f64>,
+    /// Upper bounds.
+    pub upper: Vec<f64>,
+}
+
+impl Interval {
+    /// `lower ≤ · ≤ upper`.
+    pub fn new(lower: Vec<f64>, upper: Vec<f64>) -> Self {
+        Self { lower, upper }
+    }
+
+    /// No bound on any of `len` components.
+    pub fn unbounded(len: usize) -> Self {
+        Self { lower: vec![f64::NEG_INFINITY; len], upper: vec![f64::INFINITY; len] }
+    }
+
+    /// `|·| ≤ limit` for every component.
+    pub fn symmetric(limits: &[f64]) -> Self {
+        Self { lower: limits.iter().map(|l| -l).collect(), upper: limits.to_vec() }
+    }
+
+    /// How many components it bounds.
+    pub fn len(&self) -> usize {
+        self.lower.len()
+    }
+
+    /// Whether it bounds no component.
+    pub fn is_empty(&self) -> bool {
+        self.lower.is_empty()
+    }
+
+    pub(crate) fn bounds_component(&self, index: usize) -> bool {
+        self.lower[index].is_finite() || self.upper[index].is_finite()
+    }
+
+    fn check(&self, what: &'static str, expected: usize) -> Result<(), OcpError> {
+        for side in [&self.lower, &self.upper] {
+            if side.len() != expected {
+                return Err(OcpError::Dimension { what, expected, found: side.len() });
+            }
+        }
+        for (index, (&lower, &upper)) in self.lower.iter().zip(&self.upper).enumerate() {
+            if lower.is_nan() || upper.is_nan() || lower > upper {
+                return Err(OcpError::CrossedBounds { what, index, lower, upper });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An optimal control problem in continuous time, stated once for every grid:
+///
+/// ```text
+/// min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)
+/// s.t. ẋ = f(x, u),  x(0) given,  u constant over each step
+///      x_lower ≤ x_k ≤ x_upper,  c_lower ≤ c(x_k) ≤ c_upper     (k = 1…N)
+///      u_lower ≤ u_k ≤ u_upper                                  (k = 0…N−1)
+///      e_lower ≤ e(x_N) ≤ e_upper
+/// ```
+///
+/// The callables receive symbolic states and controls; generic model code runs on them unchanged.
+pub struct ControlProblem {
+    pub(crate) states: usize,
+    pub(crate) controls: usize,
+    pub(crate) dynamics: StageMap,
+    pub(crate) running_cost: StageCost,
+    pub(crate) terminal_cost: NodeCost,
+    pub(crate) path: NodeMap,
+    pub(crate) path_bounds: Interval,
+    pub(crate) terminal: NodeMap,
+    pub(crate) terminal_bounds: Interval,
+    pub(crate) state_bounds: Interval,
+    pub(crate) control_bounds: Interval,
+}
+
+impl ControlProblem {
+    /// A problem with `states` states and `controls` controls that follows `dynamics`, costs
+    /// nothing and is not constrained yet. `dynamics(x, u)` returns ẋ, one expression per state.
+    pub fn new(
+        states: usize,
+        controls: usize,
+        dynamics: impl Fn(&[Expr], &[Expr]) -> Vec<Expr> + 'static,
+    ) -> Self {
+        Self {
+            states,
+            controls,
+            dynamics: Box::new(dynamics),
+            running_cost: Box::new(|_, _| Expr::constant(0.0)),
+            terminal_cost: Box::new(|_| Expr::constant(0.0)),
+            path: Box::new(|_| Vec::new()),
+            path_bounds: Interval::unbounded(0),
+            terminal: Box::new(|_| Vec::new()),
+            terminal_bounds: Interval::unbounded(0),
+            state_bounds: Interval::unbounded(states),
+            control_bounds: Interval::unbounded(controls),
+        }
+    }
+
+    /// Adds `ℓ(x_k, u_k)` for every step. The sum carries no Δt: see
+    /// [`Grid::running_weight`](crate::Grid::running_weight) for the same problem on another grid.
+    pub fn running_cost(mut self, cost: impl Fn(&[Expr], &[Expr]) -> Expr + 'static) -> Self {
+        self.running_cost = Box::new(cost);
+        self
+    }
+
+    /// Adds `φ(x_N)`.
+    pub fn terminal_cost(mut self, cost: impl Fn(&[Expr]) -> Expr + 'static) -> Self {
+        self.terminal_cost = Box::new(cost);
+        self
+    }
+
+    /// Constrains `c(x_k)` at every node after the first.
+    pub fn path_constraints(
+        mut self,
+        bounds: Interval,
+        constraints: impl Fn(&[Expr]) -> Vec<Expr> + 'static,
+    ) -> Self {
+        self.path = Box::new(constraints);
+        self.path_bounds = bounds;
+        self
+    }
+
+    /// Constrains `e(x_N)`.
+    pub fn terminal_constraints(
+        mut self,
+        bounds: Interval,
+        constraints: impl Fn(&[Expr]) -> Vec<Expr> + 'static,
+    ) -> Self {
+        self.terminal = Box::new(constraints);
+        self.terminal_bounds = bounds;
+        self
+    }
+
+    /// Bounds the states at every node after the first.
+    pub fn state_bounds(mut self, bounds: Interval) -> Self {
+        self.state_bounds = bounds;
+        self
+    }
+
+    /// Bounds the controls of every step.
+    pub fn control_bounds(mut self, bounds: Interval) -> Self {
+        self.control_bounds = bounds;
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), OcpError> {
+        if self.states == 0 {
+            return Err(OcpError::NoStates);
+        }
+        self.state_bounds.check("state bounds", self.states)?;
+        self.control_bounds.check("control bounds", self.controls)?;
+        self.path_bounds.check("path constraint bounds", self.path_bounds.len())?;
+        self.terminal_bounds.check("terminal constraint bounds", self.terminal_bounds.len())
+    }
+}
+
+impl std::fmt::Debug for ControlProblem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ControlProblem")
+            .field("states", &self.states)
+            .field("controls", &self.controls)
+            .field("path_constraints", &self.path_bounds.len())
+            .field("terminal_constraints", &self.terminal_bounds.len())
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,25 @@
+use righting_ipopt::{Iteration, Status, Timing};
+
+use crate::point::Point;
+use crate::samples::Samples;
+
+/// What a solve ended with, converged or not.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// How Ipopt ended.
+    pub status: Status,
+    /// The objective at the point.
+    pub objective: f64,
+    /// Largest violation of a constraint or bound.
+    pub constraint_violation: f64,
+    /// One entry per iteration, the start included.
+    pub history: Vec<Iteration>,
+    /// All states of the problem at the nodes 0…N.
+    pub states: Samples,
+    /// The controls of the steps 0…N−1.
+    pub controls: Samples,
+    /// The point with its multipliers, for a warm start.
+    pub point: Point,
+    /// Where the time went.
+    pub timing: Timing,
+}

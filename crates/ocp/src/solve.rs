@@ -1,0 +1,130 @@
+use righting_ipopt::{Control, Iteration, Multipliers, Options};
+
+use crate::error::OcpError;
+use crate::nlp::MultipleShooting;
+use crate::point::Point;
+use crate::rk4::{NODE, STAGES, WEIGHT};
+use crate::samples::Samples;
+use crate::solution::Solution;
+use crate::start::Start;
+
+impl MultipleShooting<'_> {
+    /// Solves the program from `start`. `on_iteration` sees every iteration and may stop the solve.
+    ///
+    /// Not converging is a status of the solution, not an error.
+    ///
+    /// # Errors
+    /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when the start does not fit,
+    /// [`OcpError::Solve`] when Ipopt refuses the problem or an option.
+    pub fn solve(
+        &mut self,
+        start: &Start,
+        options: &Options,
+        mut on_iteration: impl FnMut(&Iteration) -> Control,
+    ) -> Result<Solution, OcpError> {
+        let start = self.ipopt_start(start)?;
+        let mut history = Vec::new();
+        let solution = righting_ipopt::solve(self, options, &start, |iteration| {
+            history.push(*iteration);
+            on_iteration(iteration)
+        })?;
+        let point = Point {
+            layout: self.layout(),
+            z: solution.x,
+            constraints: solution.multipliers.constraints,
+            lower: solution.multipliers.lower,
+            upper: solution.multipliers.upper,
+        };
+        let (states, controls) = self.trajectory(&point.z);
+        Ok(Solution {
+            status: solution.status,
+            objective: solution.objective,
+            constraint_violation: solution.constraint_violation,
+            history,
+            states,
+            controls,
+            point,
+            timing: solution.timing,
+        })
+    }
+
+    fn ipopt_start(&self, start: &Start) -> Result<righting_ipopt::Start, OcpError> {
+        match start {
+            Start::Guess(guess) => Ok(righting_ipopt::Start::at(self.decision_vector(guess)?)),
+            Start::Warm(point) if point.layout == self.layout() => Ok(righting_ipopt::Start {
+                x: point.z.clone(),
+                multipliers: Some(Multipliers {
+                    constraints: point.constraints.clone(),
+                    lower: point.lower.clone(),
+                    upper: point.upper.clone(),
+                }),
+            }),
+            Start::Warm(point) => Err(OcpError::Dimension {
+                what: "warm start",
+                expected: self.layout().variables(),
+                found: point.z.len(),
+            }),
+        }
+    }
+
+    /// All states at the nodes and the controls of the steps. The passive states are integrated
+    /// along the trajectory with the same steps.
+    fn trajectory(&self, z: &[f64]) -> (Samples, Samples) {
+        let (functions, layout, steps) = (self.functions(), self.layout(), self.grid().steps());
+        let mut states = Samples::new(functions.all_states);
+        let mut controls = Samples::new(functions.controls);
+        let mut state = self.full_initial_state().to_vec();
+        states.push(&state);
+        let mut integrator = functions.full_ode.as_ref().map(FullStep::new);
+        for step in 0..steps {
+            let control = &z[layout.control(step)];
+            if let Some(integrator) = &mut integrator {
+                integrator.advance(&mut state, control, self.grid().step_s());
+            }
+            for (&target, &value) in functions.active.iter().zip(&z[layout.state(step + 1)]) {
+                state[target] = value;
+            }
+            states.push(&state);
+            controls.push(control);
+        }
+        (states, controls)
+    }
+}
+
+/// One integration step of all states.
+struct FullStep<'f> {
+    ode: &'f righting_symbolic::Function,
+    workspace: righting_symbolic::Workspace,
+    point: Vec<f64>,
+    rates: Vec<f64>,
+    next: Vec<f64>,
+}
+
+impl<'f> FullStep<'f> {
+    fn new(ode: &'f righting_symbolic::Function) -> Self {
+        let states = ode.input_ports()[0].len();
+        let zeros = vec![0.0; states];
+        Self {
+            ode,
+            workspace: ode.workspace(),
+            point: zeros.clone(),
+            rates: zeros.clone(),
+            next: zeros,
+        }
+    }
+
+    fn advance(&mut self, state: &mut [f64], control: &[f64], h: f64) {
+        self.next.copy_from_slice(state);
+        for stage in 0..STAGES {
+            for ((point, &start), &rate) in self.point.iter_mut().zip(&*state).zip(&self.rates) {
+                *point = if stage == 0 { start } else { start + NODE[stage] * h * rate };
+            }
+            let inputs = [self.point.as_slice(), control];
+            self.ode.evaluate(&mut self.workspace, &inputs, &mut [&mut self.rates]);
+            for (next, &rate) in self.next.iter_mut().zip(&self.rates) {
+                *next += WEIGHT[stage] * h * rate;
+            }
+        }
+        state.copy_from_slice(&self.next);
+    }
+}

@@ -1,0 +1,220 @@
+use righting_ipopt::TripletStructure;
+
+use crate::layout::Layout;
+use crate::stage::{MatrixOutput, NodeFunction, StageFunctions};
+
+/// Where the values of one matrix output belong in the slice of a step or node.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scatter {
+    /// Slot of each computed value.
+    pub(crate) varying: Vec<usize>,
+    /// Slot and value of each constant.
+    pub(crate) constant: Vec<(usize, f64)>,
+}
+
+impl Scatter {
+    fn new(output: &MatrixOutput, slot: impl Fn(usize, usize) -> usize) -> Self {
+        let mut scatter = Self::default();
+        for (&(row, column), constant) in output.entries.iter().zip(&output.constants) {
+            let slot = slot(row, column);
+            match constant {
+                Some(value) => scatter.constant.push((slot, *value)),
+                None => scatter.varying.push(slot),
+            }
+        }
+        scatter
+    }
+}
+
+/// The constraint Jacobian, step by step:
+///
+/// ```text
+/// step k: [∂defect_k/∂x_k | ∂defect_k/∂u_k | ∂defect_k/∂x_{k+1} = I | ∂c(x_{k+1})/∂x_{k+1}]
+/// end:    [∂e(x_N)/∂x_N]
+/// ```
+///
+/// The first part is missing in step 0. Slots count from the start of a whole step.
+#[derive(Debug, Clone)]
+pub(crate) struct JacobianStructure {
+    /// Entries in columns of x_k.
+    pub(crate) state_entries: usize,
+    /// Entries of a whole step.
+    pub(crate) step_entries: usize,
+    pub(crate) step: Scatter,
+    /// Slots of the identity.
+    pub(crate) next_state: std::ops::Range<usize>,
+    pub(crate) path: Scatter,
+    pub(crate) terminal: Scatter,
+    steps: usize,
+    entries: usize,
+}
+
+impl JacobianStructure {
+    pub(crate) fn new(functions: &StageFunctions, steps: usize) -> Self {
+        let n = functions.states;
+        let output = &functions.step.jacobian;
+        let position = |of_state: bool| {
+            let matching =
+                output.entries.iter().filter(move |&&(_, column)| (column < n) == of_state);
+            matching.copied().collect::<Vec<_>>()
+        };
+        let ordered = [position(true), position(false)].concat();
+        let state_entries = position(true).len();
+        let identity = ordered.len();
+        let path_start = identity + n;
+        let path = &functions.path.jacobian;
+        let step_entries = path_start + path.entries.len();
+        let terminal = &functions.terminal.jacobian;
+        Self {
+            state_entries,
+            step_entries,
+            step: Scatter::new(output, find_in(&ordered)),
+            next_state: identity..path_start,
+            path: Scatter::new(path, |row, column| {
+                path_start + find_in(&path.entries)(row, column)
+            }),
+            terminal: Scatter::new(terminal, find_in(&terminal.entries)),
+            steps,
+            entries: steps * step_entries - state_entries + terminal.entries.len(),
+        }
+    }
+
+    /// Where a slot of a step is; `None` for the part that step 0 does not have.
+    pub(crate) fn entry(&self, step: usize, slot: usize) -> Option<usize> {
+        (step * self.step_entries + slot).checked_sub(self.state_entries)
+    }
+
+    /// Index of the first entry of e(x_N).
+    pub(crate) fn terminal_start(&self) -> usize {
+        self.steps * self.step_entries - self.state_entries
+    }
+
+    pub(crate) fn triplets(&self, functions: &StageFunctions, layout: &Layout) -> TripletStructure {
+        let mut triplets = Triplets::with_capacity(self.entries);
+        let n = functions.states;
+        let entries = &functions.step.jacobian.entries;
+        for step in 0..self.steps {
+            let row = layout.defect(step).start;
+            if step > 0 {
+                let column = layout.state(step).start;
+                for &(i, j) in entries.iter().filter(|&&(_, j)| j < n) {
+                    triplets.push(row + i, column + j);
+                }
+            }
+            let column = layout.control(step).start;
+            for &(i, j) in entries.iter().filter(|&&(_, j)| j >= n) {
+                triplets.push(row + i, column + j - n);
+            }
+            let column = layout.state(step + 1).start;
+            for i in 0..n {
+                triplets.push(row + i, column + i);
+            }
+            let row = layout.path(step + 1).start;
+            for &(i, j) in &functions.path.jacobian.entries {
+                triplets.push(row + i, column + j);
+            }
+        }
+        let (row, column) = (layout.terminal().start, layout.state(self.steps).start);
+        for &(i, j) in &functions.terminal.jacobian.entries {
+            triplets.push(row + i, column + j);
+        }
+        triplets.0
+    }
+}
+
+/// The lower triangle of the Lagrangian Hessian, node by node: `[xx | ux | uu]`. Node 0 has only
+/// the last part, node N only the first. Slots count from the start of a whole node.
+#[derive(Debug, Clone)]
+pub(crate) struct HessianStructure {
+    ordered: Vec<(usize, usize)>,
+    state_entries: usize,
+    first_control_entry: usize,
+    steps: usize,
+    pub(crate) step: Scatter,
+    pub(crate) running: Scatter,
+    pub(crate) path: Scatter,
+    pub(crate) terminal_cost: Scatter,
+    pub(crate) terminal: Scatter,
+}
+
+impl HessianStructure {
+    pub(crate) fn new(functions: &StageFunctions, steps: usize) -> Self {
+        let n = functions.states;
+        let hessian = |function: &NodeFunction| function.hessian.entries.clone();
+        let mut ordered: Vec<(usize, usize)> = [
+            functions.step.hessian.entries.clone(),
+            hessian(&functions.running),
+            hessian(&functions.path),
+            hessian(&functions.terminal_cost),
+            hessian(&functions.terminal),
+        ]
+        .concat();
+        ordered.sort_by_key(|&(row, column)| (row >= n, column >= n, row, column));
+        ordered.dedup();
+        let scatter = |output: &MatrixOutput| Scatter::new(output, find_in(&ordered));
+        Self {
+            state_entries: ordered.partition_point(|&(row, _)| row < n),
+            first_control_entry: ordered.partition_point(|&(_, column)| column < n),
+            steps,
+            step: scatter(&functions.step.hessian),
+            running: scatter(&functions.running.hessian),
+            path: scatter(&functions.path.hessian),
+            terminal_cost: scatter(&functions.terminal_cost.hessian),
+            terminal: scatter(&functions.terminal.hessian),
+            ordered,
+        }
+    }
+
+    /// Number of entries.
+    pub(crate) fn entries(&self) -> usize {
+        self.steps * self.ordered.len() - self.first_control_entry + self.state_entries
+    }
+
+    /// Where a slot of a node is; `None` for the parts that node 0 does not have. Node N has the
+    /// slots that couple states alone.
+    pub(crate) fn entry(&self, node: usize, slot: usize) -> Option<usize> {
+        (node * self.ordered.len() + slot).checked_sub(self.first_control_entry)
+    }
+
+    pub(crate) fn triplets(&self, functions: &StageFunctions, layout: &Layout) -> TripletStructure {
+        let n = functions.states;
+        let mut triplets = Triplets::with_capacity(self.entries());
+        for node in 0..=self.steps {
+            let variable = |index: usize| match index < n {
+                true => layout.state(node).start + index,
+                false => layout.control(node).start + index - n,
+            };
+            let part = match node {
+                0 => &self.ordered[self.first_control_entry..],
+                node if node == self.steps => &self.ordered[..self.state_entries],
+                _ => &self.ordered[..],
+            };
+            for &(row, column) in part {
+                triplets.push(variable(row), variable(column));
+            }
+        }
+        triplets.0
+    }
+}
+
+struct Triplets(TripletStructure);
+
+impl Triplets {
+    fn with_capacity(entries: usize) -> Self {
+        Self(TripletStructure {
+            rows: Vec::with_capacity(entries),
+            columns: Vec::with_capacity(entries),
+        })
+    }
+
+    fn push(&mut self, row: usize, column: usize) {
+        self.0.rows.push(row as i32);
+        self.0.columns.push(column as i32);
+    }
+}
+
+fn find_in(entries: &[(usize, usize)]) -> impl Fn(usize, usize) -> usize {
+    let positions: std::collections::HashMap<(usize, usize), usize> =
+        entries.iter().enumerate().map(|(slot, &entry)| (entry, slot)).collect();
+    move |row, column| positions[&(row, column)]
+}

@@ -1,0 +1,92 @@
+//! Exact derivatives of transcribed problems against finite differences.
+
+use num_dual::DualNum;
+use righting_ipopt::Problem;
+use righting_ocp::*;
+use righting_scalar::Scalar;
+use righting_symbolic::Expr;
+
+/// Uniform numbers in (−1, 1) from a multiplicative congruential generator.
+struct Uniform(u64);
+
+impl Uniform {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self, len: usize) -> Vec<f64> {
+        (0..len).map(|_| self.next()).collect()
+    }
+}
+
+/// A dynamics with every kind of coupling: states with states, controls, and both in products; a
+/// passive state; constant and varying Jacobian entries.
+fn tangled(x: &[Expr], u: &[Expr]) -> Vec<Expr> {
+    vec![
+        x[1] + x[3].sin() * u[0],
+        u[0] * 2.0 - x[0] * x[2],
+        (x[1] * u[1]).cos() + x[2] * x[2] * 0.3,
+        u[1],
+        x[0] * x[1],
+    ]
+}
+
+fn problem() -> ControlProblem {
+    ControlProblem::new(5, 2, tangled)
+        .running_cost(|x, u| u[0] * u[0] * x[1].exp() + u[1] * u[1] + x[3])
+        .terminal_cost(|x| (x[0] - 1.0).powi(2) * x[2] + x[1] * 3.0)
+        .path_constraints(Interval::new(vec![-1.0, 0.0], vec![f64::INFINITY, 2.0]), |x| {
+            vec![x[0] * x[1] + x[2].minimum(x[3]), x[3].powi(3)]
+        })
+        .terminal_constraints(Interval::new(vec![0.0], vec![0.0]), |x| vec![x[0] * x[2] - x[3]])
+}
+
+fn check(steps: usize) {
+    let functions = StageFunctions::compile(&problem()).unwrap();
+    let grid = Grid::new(1.7, steps).unwrap().with_steps(steps).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.3, -0.2, 0.5, 0.1, 9.0]).unwrap();
+    let (variables, constraints) = (program.layout().variables(), program.layout().constraints());
+    assert_eq!(variables, steps * (4 + 2), "the fifth state is passive");
+    let mut random = Uniform(7 + steps as u64);
+    for _ in 0..3 {
+        let (x, multipliers) = (random.vector(variables), random.vector(constraints));
+        for column in 0..variables.min(40) {
+            let mut unit = vec![0.0; variables];
+            unit[column] = 1.0;
+            let errors =
+                DerivativeErrors::along(&mut program, &x, &unit, &multipliers, 1e-3).unwrap();
+            assert!(errors.worst() < 1e-9, "variable {column}: {errors:?}");
+        }
+        let direction = random.vector(variables);
+        let errors =
+            DerivativeErrors::along(&mut program, &x, &direction, &multipliers, 1e-3).unwrap();
+        assert!(errors.worst() < 1e-9, "{errors:?}");
+    }
+}
+
+#[test]
+fn derivatives_agree_with_finite_differences_for_any_number_of_steps() {
+    for steps in [1, 2, 5, 16, 17, 40] {
+        check(steps);
+    }
+}
+
+#[test]
+fn the_hessian_does_not_rely_on_the_jacobian_having_been_asked_for_here() {
+    let functions = StageFunctions::compile(&problem()).unwrap();
+    let grid = Grid::new(1.0, 3).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.3, -0.2, 0.5, 0.1, 9.0]).unwrap();
+    let mut random = Uniform(3);
+    let (here, there) = (random.vector(18), random.vector(18));
+    let multipliers = random.vector(program.layout().constraints());
+    let entries = program.hessian_structure().len();
+    let mut jacobian = vec![0.0; program.jacobian_structure().len()];
+    let mut hessian_after = |program: &mut MultipleShooting, first: &[f64]| {
+        let mut values = vec![0.0; entries];
+        program.jacobian(first, true, &mut jacobian).unwrap();
+        program.hessian(&here, true, 1.0, &multipliers, true, &mut values).unwrap();
+        values
+    };
+    assert_eq!(hessian_after(&mut program, &here), hessian_after(&mut program, &there));
+}
