@@ -27,10 +27,11 @@ pub(crate) struct Chain {
     pub root_rotation: Matrix3<f64>,
     /// Origin of K(1), body axes.
     pub root_position: Vector3<f64>,
+    /// How the base takes in the arm, in the axes that joint 1 turns in.
+    pub root: RootCoupling,
     pub joints: Vec<Joint>,
-    pub convention: DhConvention,
-    /// Each link's segment and centre of mass in the frame it moves with.
-    pub links: Vec<LinkGeometry>,
+    /// Centre of mass of each link, in the order of the rows.
+    pub link_centers: Vec<LinkCenter>,
 }
 
 /// One joint with the rigid body that it turns.
@@ -67,21 +68,35 @@ pub(crate) struct Coupling {
     pub first: Vector3<f64>,
     /// b, m.
     pub arm: Vector3<f64>,
-    /// κ b/2, kg m.
+    /// κ b/2, kg m; zero where the body's mass does not lie along its offset.
     pub half: Vector3<f64>,
-    /// C − κ b bᵀ, kg m²; none where the body's mass lies along its offset.
+    /// C, kg m²; none where κ b bᵀ is all of it.
     pub rest: Option<Matrix3<f64>>,
+    /// g/b where both are parallel, kg.
+    pub first_over_arm: Option<f64>,
 }
 
-/// Segment and centre of mass of a link, in K(k) of the joint that moves it, or in the frame that
-/// joint 1 turns in for a link fixed to the base.
+/// How the base takes in the arm: a [`Coupling`] without the part of its arm b that lies along joint 1.
+///
+/// That part may be taken in before joint 1 turns, so joint 1's coupling has it. Where the joint's
+/// axis passes through the base's centre of mass it is all there is.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct LinkGeometry {
-    /// Joint that moves the link, counted from zero; none for a link fixed to the base.
-    pub joint: Option<usize>,
-    pub start: Vector3<f64>,
-    pub end: Vector3<f64>,
-    pub center: Vector3<f64>,
+pub(crate) struct RootCoupling {
+    /// g in body axes, kg m.
+    pub first: Vector3<f64>,
+    /// C of the whole base, body axes, kg m².
+    pub second: Matrix3<f64>,
+    /// b across joint 1, in the axes that joint 1 turns in, m.
+    pub across: Vector3<f64>,
+}
+
+/// Where a link's centre of mass is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum LinkCenter {
+    /// In body axes, from the body-frame origin.
+    OnBase(Vector3<f64>),
+    /// In K of the joint that moves the link, counted from zero.
+    OnJoint(usize, Vector3<f64>),
 }
 
 /// A constant angle, kept so that multiples of a right angle have exact sine and cosine.
@@ -153,53 +168,51 @@ impl Chain {
             })
         };
         let rows: Vec<Row> = links.iter().map(|link| Row::new(link, convention)).collect();
-        let turns = links.iter().map(|link| Turn::new(link.theta_rad));
+        let angles = links.iter().map(|link| Turn::new(link.theta_rad));
         let last = links.len() - 1;
-        let chain = match convention {
+        let mut chain = Self {
+            total_mass: 0.0,
+            base: base_body,
+            root_rotation: mount_rotation,
+            root_position: mount.position_m,
+            root: RootCoupling::none(),
+            joints: Vec::new(),
+            link_centers: Vec::new(),
+        };
+        match convention {
             DhConvention::Standard => {
-                let joints = turns.zip(&rows).enumerate().map(|(k, (angle, row))| {
-                    let held = if k == last {
-                        payload_moments(row.twist, &row.offset)
-                    } else {
-                        MassMoments::zero()
-                    };
-                    Joint::new(angle, row.body.joined(&held), row.offset, row.twist)
-                });
-                Self {
-                    total_mass: 0.0,
-                    base: base_body,
-                    root_rotation: mount_rotation,
-                    root_position: mount.position_m,
-                    joints: joints.collect(),
-                    convention,
-                    links: rows.iter().enumerate().map(|(i, row)| row.geometry(Some(i))).collect(),
+                for (k, (angle, row)) in angles.zip(rows).enumerate() {
+                    let mut body = row.body;
+                    if k == last {
+                        body = body.joined(&payload_moments(row.twist, &row.offset));
+                    }
+                    chain.joints.push(Joint::new(angle, body, row.offset, row.twist));
+                    chain.link_centers.push(LinkCenter::OnJoint(k, row.center));
                 }
             }
             DhConvention::Modified => {
-                let beyond = rows[1..].iter().map(Some).chain([None]);
-                let joints = turns.zip(beyond).map(|(angle, row)| match row {
-                    Some(row) => Joint::new(angle, row.body.clone(), row.offset, row.twist),
-                    None => {
-                        let held = payload_moments(Turn::NONE, &Vector3::zeros());
-                        Joint::new(angle, held, Vector3::zeros(), Turn::NONE)
-                    }
-                });
-                let fixed = rows[0].body.placed(&mount_rotation, &mount.position_m);
-                Self {
-                    total_mass: 0.0,
-                    base: base_body.joined(&fixed),
-                    root_rotation: (mount_rotation * rows[0].twist.about_x()).map(snapped),
-                    root_position: mount.position_m + mount_rotation * rows[0].offset,
-                    joints: joints.collect(),
-                    convention,
-                    links: rows
-                        .iter()
-                        .enumerate()
-                        .map(|(i, row)| row.geometry(i.checked_sub(1)))
-                        .collect(),
+                let fixed = &rows[0];
+                let center = mount.position_m + mount_rotation * fixed.center;
+                chain.link_centers.push(LinkCenter::OnBase(center));
+                chain.base =
+                    chain.base.joined(&fixed.body.placed(&mount_rotation, &mount.position_m));
+                chain.root_rotation = (mount_rotation * fixed.twist.about_x()).map(snapped);
+                chain.root_position = mount.position_m + mount_rotation * fixed.offset;
+                for (k, angle) in angles.enumerate() {
+                    let joint = match rows.get(k + 1) {
+                        Some(row) => {
+                            chain.link_centers.push(LinkCenter::OnJoint(k, row.center));
+                            Joint::new(angle, row.body.clone(), row.offset, row.twist)
+                        }
+                        None => {
+                            let held = payload_moments(Turn::NONE, &Vector3::zeros());
+                            Joint::new(angle, held, Vector3::zeros(), Turn::NONE)
+                        }
+                    };
+                    chain.joints.push(joint);
                 }
             }
-        };
+        }
         chain.coupled()
     }
 
@@ -212,18 +225,28 @@ impl Chain {
         }
         let mut beyond = 0.0;
         for (k, joint) in self.joints.iter_mut().enumerate().rev() {
-            joint.coupling = Coupling::new(&joint.body, &joint.offset, beyond, self.total_mass);
+            let (first, arm, second) =
+                barycentric(&joint.body, &joint.offset, beyond, self.total_mass);
+            joint.coupling = Coupling::new(first, arm, second);
             beyond += joint.body.mass;
             if !(joint.body.is_finite() && joint.coupling.is_finite()) {
                 return Err(ModelError::Overflow { part: Part::Link(k) });
             }
+        }
+        let (first, arm, second) =
+            barycentric(&self.base, &self.root_position, beyond, self.total_mass);
+        let arm = (self.root_rotation.transpose() * arm).map(|entry| entry + 0.0);
+        self.root = RootCoupling { first, second, across: Vector3::new(arm.x, arm.y, 0.0) };
+        self.joints[0].take_in_along_axis(arm.z, self.total_mass, moved);
+        if !(self.root.is_finite() && self.joints[0].coupling.is_finite()) {
+            return Err(ModelError::Overflow { part: Part::Base });
         }
         Ok(self)
     }
 
     /// Whether joint k turns about an axis parallel to that of joint k−1.
     pub fn continues_group(&self, k: usize) -> bool {
-        k > 0 && self.joints[k - 1].twist.is_none()
+        0 < k && k < self.joints.len() && self.joints[k - 1].twist.is_none()
     }
 }
 
@@ -231,40 +254,70 @@ impl Joint {
     fn new(angle: Turn, body: MassMoments, offset: Vector3<f64>, twist: Turn) -> Self {
         Self { angle, body, offset, twist, coupling: Coupling::none() }
     }
+
+    /// Shifts the point to which the coupling leads by `along` down the joint's axis.
+    fn take_in_along_axis(&mut self, along: f64, total: f64, moved: f64) {
+        let (first, arm, second) =
+            barycentric(&self.body, &self.offset, moved - self.body.mass, total);
+        let shift = Vector3::new(0.0, 0.0, along);
+        let mixed = first * shift.transpose();
+        self.coupling = Coupling::new(first, arm + shift, second + mixed + mixed.transpose());
+    }
 }
 
 impl Coupling {
     fn none() -> Self {
         let zero = Vector3::zeros();
-        Self { first: zero, arm: zero, half: zero, rest: None }
+        Self { first: zero, arm: zero, half: zero, rest: None, first_over_arm: None }
     }
 
-    fn new(body: &MassMoments, offset: &Vector3<f64>, beyond: f64, total: f64) -> Self {
-        let first = offset * beyond + body.first;
-        let arm = offset - first / total;
-        let second =
-            offset * offset.transpose() * beyond + body.second - first * first.transpose() / total;
+    fn new(first: Vector3<f64>, arm: Vector3<f64>, second: Matrix3<f64>) -> Self {
         let arm_squared = arm.norm_squared();
         let factor = if arm_squared > 0.0 {
             arm.dot(&(second * arm)) / (arm_squared * arm_squared)
         } else {
             0.0
         };
-        let rest = second - arm * arm.transpose() * factor;
+        let ratio = if arm_squared > 0.0 { first.dot(&arm) / arm_squared } else { 0.0 };
+        let parallel = (first - arm * ratio).amax() <= 64.0 * f64::EPSILON * first.amax();
+        let first_over_arm = parallel.then_some(ratio);
         let rounding = 64.0 * f64::EPSILON * second.amax();
-        Self {
-            first,
-            arm,
-            half: arm * (factor / 2.0),
-            rest: (rest.amax() > rounding)
-                .then(|| rest.map(|entry| if entry.abs() > rounding { entry } else { 0.0 })),
+        let rest = second - arm * arm.transpose() * factor;
+        if rest.amax() <= rounding {
+            return Self { first, arm, half: arm * (factor / 2.0), rest: None, first_over_arm };
         }
+        let rest = second.map(|entry| if entry.abs() > rounding { entry } else { 0.0 });
+        Self { first, arm, half: Vector3::zeros(), rest: Some(rest), first_over_arm }
     }
 
     fn is_finite(&self) -> bool {
         let vectors = [self.first, self.arm, self.half];
         vectors.iter().flatten().all(|value| value.is_finite())
             && self.rest.iter().flatten().all(|value| value.is_finite())
+    }
+}
+
+/// g, b and C of [`Coupling`].
+fn barycentric(
+    body: &MassMoments,
+    offset: &Vector3<f64>,
+    beyond: f64,
+    total: f64,
+) -> (Vector3<f64>, Vector3<f64>, Matrix3<f64>) {
+    let first = offset * beyond + body.first;
+    let second =
+        offset * offset.transpose() * beyond + body.second - first * first.transpose() / total;
+    (first, offset - first / total, second)
+}
+
+impl RootCoupling {
+    fn none() -> Self {
+        let zero = Vector3::zeros();
+        Self { first: zero, second: Matrix3::zeros(), across: zero }
+    }
+
+    fn is_finite(&self) -> bool {
+        self.first.iter().chain(&self.across).chain(&self.second).all(|v| v.is_finite())
     }
 }
 
@@ -306,10 +359,6 @@ impl Row {
             MassMoments::of_body(link.mass_kg, center, &inertia)
         };
         Self { body, offset, twist, center }
-    }
-
-    fn geometry(&self, joint: Option<usize>) -> LinkGeometry {
-        LinkGeometry { joint, start: Vector3::zeros(), end: self.offset, center: self.center }
     }
 }
 

@@ -1,0 +1,95 @@
+//! Distances between points and straight segments, without comparing.
+//!
+//! The squared distance is smooth where the distance itself has a corner (at contact) and needs no
+//! root: prefer it in constraints. Every division is by a number that the degenerate case has
+//! replaced beforehand, so segments may have no length and may be parallel or collinear, on any
+//! scalar.
+
+use crate::algebra::{difference, dot, scaled};
+use nalgebra::Vector3;
+use righting_scalar::Scalar;
+
+/// Squared sine of the angle below which two directions count as parallel. One point of the pair
+/// then stands for all: the squared distance is off by at most this times a squared length.
+const PARALLEL: f64 = 1e-14;
+
+/// A straight segment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segment<T> {
+    /// One end, m.
+    pub start: Vector3<T>,
+    /// From there to the other end, m.
+    pub direction: Vector3<T>,
+    /// Squared length of `direction`, m². Known beforehand for a rigid link, which spares its
+    /// computation and makes it a constant for derivatives.
+    pub length_squared: T,
+}
+
+impl<T: Scalar> Segment<T> {
+    /// The segment between two points.
+    pub fn new(start: Vector3<T>, end: Vector3<T>) -> Self {
+        let direction = difference(&end, &start);
+        let length_squared = dot(&direction, &direction);
+        Self { start, direction, length_squared }
+    }
+
+    /// The other end, m.
+    pub fn end(&self) -> Vector3<T> {
+        crate::algebra::sum(&self.start, &self.direction)
+    }
+
+    /// Squared distance to a point, m².
+    pub fn squared_distance_to_point(&self, point: &Vector3<T>) -> T {
+        let from_start = difference(point, &self.start);
+        let s = clamped_ratio(dot(&from_start, &self.direction), self.length_squared);
+        squared(&difference(&from_start, &scaled(&self.direction, s)))
+    }
+
+    /// Distance to a point, m. Its derivative does not exist where it is zero.
+    pub fn distance_to_point(&self, point: &Vector3<T>) -> T {
+        self.squared_distance_to_point(point).sqrt()
+    }
+
+    /// Squared distance to another segment, m².
+    ///
+    /// Finds the closest points of the two lines, then holds each point within its segment in turn
+    /// (Ericson, *Real-Time Collision Detection*, section 5.1.9).
+    pub fn squared_distance_to_segment(&self, other: &Self) -> T {
+        let apart = difference(&self.start, &other.start);
+        let (a, e) = (self.length_squared, other.length_squared);
+        let b = dot(&self.direction, &other.direction);
+        let c = dot(&self.direction, &apart);
+        let f = dot(&other.direction, &apart);
+        let both = a * e;
+        let denominator = both - b * b;
+        // Of parallel lines every point is a closest one: begin with the start.
+        let crossing = denominator - both * PARALLEL;
+        let numerator = T::select_positive(crossing, b * f - c * e, T::from(0.0));
+        let on_line = numerator / T::select_positive(crossing, denominator, T::from(1.0));
+        let t = clamped_ratio(b * unit_clamped(on_line) + f, e);
+        // Where t was not held back this gives the same point again.
+        let s = clamped_ratio(b * t - c, a);
+        let between =
+            Vector3::from_fn(|i, _| apart[i] + self.direction[i] * s - other.direction[i] * t);
+        squared(&between)
+    }
+
+    /// Distance to another segment, m. Its derivative does not exist where it is zero.
+    pub fn distance_to_segment(&self, other: &Self) -> T {
+        self.squared_distance_to_segment(other).sqrt()
+    }
+}
+
+/// numerator/denominator within [0, 1]; 0 where the denominator, which is never negative, is zero.
+fn clamped_ratio<T: Scalar>(numerator: T, denominator: T) -> T {
+    let guarded = T::select_positive(denominator, denominator, T::from(1.0));
+    unit_clamped(numerator * guarded.recip())
+}
+
+fn unit_clamped<T: Scalar>(x: T) -> T {
+    x.clamped(T::from(0.0), T::from(1.0))
+}
+
+fn squared<T: Scalar>(v: &Vector3<T>) -> T {
+    dot(v, v)
+}
