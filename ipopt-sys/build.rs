@@ -28,6 +28,8 @@ fn main() {
         println!("cargo:rustc-cfg=ipopt_bool");
     } else {
         println!("cargo:rustc-cfg=ipopt_ma57_slot");
+        // For the build scripts of dependents, as DEP_IPOPT_MA57_SLOT.
+        println!("cargo:ma57_slot=yes");
     }
     println!("cargo:rustc-env=IPOPT_VERSION={}", library.version);
     let include = std::env::join_paths(&library.include_paths).unwrap_or_default();

@@ -1,1 +1,126 @@
-//! Safe Ipopt.
+//! Ipopt, the interior-point solver for large sparse nonlinear programs
+//!
+//! ```text
+//! min f(x)   s.t.   g_L ≤ g(x) ≤ g_U,   x_L ≤ x ≤ x_U
+//! ```
+//!
+//! (Wächter & Biegler, *Mathematical Programming* 106, 2006), behind a safe interface: a
+//! [`Problem`] with its sparsity declared once, typed [`Options`], every outcome a [`Status`].
+//!
+//! ```
+//! use righting_ipopt::*;
+//!
+//! /// min (1 − x₀)² + 100 (x₁ − x₀²)²,  within the unit disc
+//! struct Rosenbrock;
+//!
+//! impl Problem for Rosenbrock {
+//!     fn dimensions(&self) -> Dimensions {
+//!         Dimensions { variables: 2, constraints: 1 }
+//!     }
+//!     fn bounds(&self, bounds: &mut Bounds) {
+//!         bounds.g_upper[0] = 1.0;
+//!     }
+//!     fn jacobian_structure(&self) -> TripletStructure {
+//!         TripletStructure { rows: vec![0, 0], columns: vec![0, 1] }
+//!     }
+//!     fn hessian_structure(&self) -> TripletStructure {
+//!         TripletStructure { rows: vec![0, 1, 1], columns: vec![0, 0, 1] }
+//!     }
+//!     fn objective(&mut self, x: &[f64], _: bool) -> Result<f64, EvaluationError> {
+//!         Ok((1.0 - x[0]).powi(2) + 100.0 * (x[1] - x[0] * x[0]).powi(2))
+//!     }
+//!     fn gradient(&mut self, x: &[f64], _: bool, out: &mut [f64]) -> Result<(), EvaluationError> {
+//!         let r = x[1] - x[0] * x[0];
+//!         out.copy_from_slice(&[2.0 * (x[0] - 1.0) - 400.0 * x[0] * r, 200.0 * r]);
+//!         Ok(())
+//!     }
+//!     fn constraints(&mut self, x: &[f64], _: bool, g: &mut [f64]) -> Result<(), EvaluationError> {
+//!         g[0] = x[0] * x[0] + x[1] * x[1];
+//!         Ok(())
+//!     }
+//!     fn jacobian(&mut self, x: &[f64], _: bool, out: &mut [f64]) -> Result<(), EvaluationError> {
+//!         out.copy_from_slice(&[2.0 * x[0], 2.0 * x[1]]);
+//!         Ok(())
+//!     }
+//!     fn hessian(
+//!         &mut self,
+//!         x: &[f64],
+//!         _: bool,
+//!         s: f64,
+//!         m: &[f64],
+//!         _: bool,
+//!         out: &mut [f64],
+//!     ) -> Result<(), EvaluationError> {
+//!         out.copy_from_slice(&[
+//!             s * (2.0 - 400.0 * x[1] + 1200.0 * x[0] * x[0]) + 2.0 * m[0],
+//!             s * -400.0 * x[0],
+//!             s * 200.0 + 2.0 * m[0],
+//!         ]);
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let start = Start::at(vec![0.0, 0.0]);
+//! let solution = solve(&mut Rosenbrock, &Options::default(), &start, |_| Control::Continue)?;
+//! assert_eq!(solution.status, Status::Solved);
+//! assert!((solution.x[0] - 0.786_415).abs() < 1e-5);
+//! # Ok::<(), SolveError>(())
+//! ```
+//!
+//! # Linear solvers
+//!
+//! [`solve`] lets Ipopt use MUMPS. [`solve_with`] plugs in a [`LinearSolver`] of the caller's, which
+//! may know the structure of the problem: Ipopt 3.11 to 3.13 call MA57 through function pointers
+//! that a program may set, and that is where it is called from.
+//!
+//! # Threads
+//!
+//! MUMPS keeps state of the whole process, so [`solve`] holds a process-wide lock from start to
+//! end: solves with MUMPS in several threads are correct, one after the other. Ipopt itself
+//! shares nothing between threads that matters: every solve has its own application object,
+//! journalist and options, and the tags of its caches count in thread-local storage (checked for
+//! 3.11.9, source and Debian's binary); what is shared is the flag that the banner was printed
+//! and the origin of the wall clock. So solves with [`solve_with`] run in parallel, each with its
+//! own solver. Two of Ipopt's clocks count the whole process: `max_cpu_time` and its printed
+//! timings include the other threads.
+//!
+//! A threaded BLAS makes MUMPS slower on the small fronts of these problems and its rounding
+//! depends on the number of threads. It reads its environment once, when it is loaded, so only
+//! whoever starts the process can choose: run with `OPENBLAS_NUM_THREADS=1`.
+//!
+//! # Panics and nesting
+//!
+//! A panic in a [`Problem`], a [`LinearSolver`] or the iteration callback never crosses Ipopt's
+//! frames: it is kept, the solve is stopped, and it goes on once Ipopt has returned. A solve that
+//! is started from within a solve on the same thread is refused.
+
+mod callbacks;
+mod check;
+mod error;
+mod handle;
+mod iteration;
+mod libraries;
+mod linear_solver;
+mod options;
+mod problem;
+mod slot;
+mod solution;
+mod solve;
+mod start;
+mod status;
+mod timing;
+mod trap;
+
+pub use error::{Matrix, SolveError, VectorName};
+pub use iteration::{Control, Iteration};
+pub use libraries::{Library, LinearSolvers, Versions, versions};
+pub use linear_solver::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
+pub use options::{
+    FixedVariables, Hessian, MuStrategy, MultiplierInitialization, NlpScaling, OptionValue, Options,
+};
+pub use problem::{Bounds, Dimensions, EvaluationError, Problem, Scaling, TripletStructure};
+pub use solution::Solution;
+pub use solve::{solve, solve_with};
+pub use start::{Multipliers, Start};
+pub use status::Status;
+pub use timing::{EvaluationTiming, LinearSolverTiming, Tally, Timing};

@@ -1,0 +1,175 @@
+//! What must hold before Ipopt may see a problem: it checks little of this itself.
+
+use crate::{
+    Bounds, Dimensions, Matrix, Multipliers, Problem, Scaling, SolveError, Start, TripletStructure,
+    VectorName,
+};
+
+/// A problem's declarations, checked.
+pub(crate) struct Declarations {
+    pub(crate) variables: usize,
+    pub(crate) constraints: usize,
+    pub(crate) x_lower: Vec<f64>,
+    pub(crate) x_upper: Vec<f64>,
+    pub(crate) g_lower: Vec<f64>,
+    pub(crate) g_upper: Vec<f64>,
+    pub(crate) jacobian: TripletStructure,
+    pub(crate) hessian: TripletStructure,
+    pub(crate) scaling: Option<Scaling>,
+}
+
+impl Declarations {
+    pub(crate) fn of<P: Problem + ?Sized>(problem: &P) -> Result<Self, SolveError> {
+        let Dimensions { variables, constraints } = problem.dimensions();
+        if variables == 0 {
+            return Err(SolveError::NoVariables);
+        }
+        check_count("variables", variables)?;
+        check_count("constraints", constraints)?;
+
+        let mut declarations = Self {
+            variables,
+            constraints,
+            x_lower: vec![f64::NEG_INFINITY; variables],
+            x_upper: vec![f64::INFINITY; variables],
+            g_lower: vec![f64::NEG_INFINITY; constraints],
+            g_upper: vec![f64::INFINITY; constraints],
+            jacobian: problem.jacobian_structure(),
+            hessian: problem.hessian_structure(),
+            scaling: problem.scaling(),
+        };
+        problem.bounds(&mut Bounds {
+            x_lower: &mut declarations.x_lower,
+            x_upper: &mut declarations.x_upper,
+            g_lower: &mut declarations.g_lower,
+            g_upper: &mut declarations.g_upper,
+        });
+        declarations.check()?;
+        Ok(declarations)
+    }
+
+    fn check(&self) -> Result<(), SolveError> {
+        check_bounds(VectorName::Variable, &self.x_lower, &self.x_upper)?;
+        check_bounds(VectorName::Constraint, &self.g_lower, &self.g_upper)?;
+        check_structure(Matrix::Jacobian, &self.jacobian, self.constraints, self.variables)?;
+        check_structure(Matrix::Hessian, &self.hessian, self.variables, self.variables)?;
+        check_lower_triangle(&self.hessian)?;
+        if let Some(Scaling { objective, x, g }) = &self.scaling {
+            check_factor(*objective)?;
+            if let Some(x) = x {
+                check_factors(VectorName::VariableScaling, x, self.variables)?;
+            }
+            if let Some(g) = g {
+                check_factors(VectorName::ConstraintScaling, g, self.constraints)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn check_start(&self, start: &Start) -> Result<(), SolveError> {
+        check_finite(VectorName::Start, &start.x, self.variables)?;
+        if let Some(Multipliers { constraints, lower, upper }) = &start.multipliers {
+            check_finite(VectorName::ConstraintMultipliers, constraints, self.constraints)?;
+            check_finite(VectorName::LowerMultipliers, lower, self.variables)?;
+            check_finite(VectorName::UpperMultipliers, upper, self.variables)?;
+        }
+        Ok(())
+    }
+
+    /// By how much a point leaves its bounds at most; NaN if that is not known.
+    pub(crate) fn violation(&self, x: &[f64], g: &[f64]) -> f64 {
+        let variables = x.iter().zip(&self.x_lower).zip(&self.x_upper);
+        let constraints = g.iter().zip(&self.g_lower).zip(&self.g_upper);
+        variables.chain(constraints).fold(0.0, |worst: f64, ((value, lower), upper)| {
+            let violation = (lower - value).max(value - upper);
+            if value.is_nan() || worst.is_nan() { f64::NAN } else { worst.max(violation) }
+        })
+    }
+}
+
+fn check_count(what: &'static str, count: usize) -> Result<i32, SolveError> {
+    i32::try_from(count).map_err(|_| SolveError::TooMany { what, count })
+}
+
+fn check_bounds(vector: VectorName, lower: &[f64], upper: &[f64]) -> Result<(), SolveError> {
+    let possible = |lower: f64, upper: f64| {
+        lower <= upper && lower != f64::INFINITY && upper != f64::NEG_INFINITY
+    };
+    let found = lower.iter().zip(upper).position(|(lower, upper)| !possible(*lower, *upper));
+    match found {
+        Some(index) => Err(SolveError::ImpossibleBounds {
+            vector,
+            index,
+            lower: lower[index],
+            upper: upper[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_structure(
+    matrix: Matrix,
+    structure: &TripletStructure,
+    height: usize,
+    width: usize,
+) -> Result<(), SolveError> {
+    let TripletStructure { rows, columns } = structure;
+    if rows.len() != columns.len() {
+        let (rows, columns) = (rows.len(), columns.len());
+        return Err(SolveError::UnevenStructure { matrix, rows, columns });
+    }
+    check_count("entries of a matrix", rows.len())?;
+    let inside = |index: i32, length: usize| usize::try_from(index).is_ok_and(|i| i < length);
+    for (entry, (&row, &column)) in rows.iter().zip(columns).enumerate() {
+        if !inside(row, height) || !inside(column, width) {
+            return Err(SolveError::EntryOutOfRange { matrix, entry, row, column, height, width });
+        }
+    }
+    Ok(())
+}
+
+fn check_lower_triangle(hessian: &TripletStructure) -> Result<(), SolveError> {
+    for (entry, (&row, &column)) in hessian.rows.iter().zip(&hessian.columns).enumerate() {
+        if column > row {
+            return Err(SolveError::UpperTriangle { entry, row, column });
+        }
+    }
+    Ok(())
+}
+
+fn check_factor(objective: f64) -> Result<(), SolveError> {
+    if objective.is_finite() && objective != 0.0 {
+        return Ok(());
+    }
+    Err(SolveError::BadNumber {
+        vector: VectorName::ObjectiveScaling,
+        index: 0,
+        value: objective,
+        allowed: "a finite number other than zero",
+    })
+}
+
+fn check_factors(vector: VectorName, values: &[f64], expected: usize) -> Result<(), SolveError> {
+    let allowed = "a finite positive number";
+    check_entries(vector, values, expected, allowed, |value| value.is_finite() && value > 0.0)
+}
+
+fn check_finite(vector: VectorName, values: &[f64], expected: usize) -> Result<(), SolveError> {
+    check_entries(vector, values, expected, "a finite number", f64::is_finite)
+}
+
+fn check_entries(
+    vector: VectorName,
+    values: &[f64],
+    expected: usize,
+    allowed: &'static str,
+    good: impl Fn(f64) -> bool,
+) -> Result<(), SolveError> {
+    if values.len() != expected {
+        return Err(SolveError::WrongLength { vector, expected, found: values.len() });
+    }
+    match values.iter().position(|value| !good(*value)) {
+        Some(index) => Err(SolveError::BadNumber { vector, index, value: values[index], allowed }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,82 @@
+use std::error::Error;
+use thiserror::Error;
+
+/// A solver of the symmetric indefinite systems of the interior-point method.
+///
+/// ```text
+/// ⎡ W + D_x         J_cᵀ   J_dᵀ ⎤       x    free variables
+/// ⎢         D_s            −I   ⎥       s    one slack for each inequality constraint
+/// ⎢ J_c            −D_c         ⎥       y_c  equality constraints
+/// ⎣ J_d     −I            −D_d  ⎦       y_d  inequality constraints
+/// ```
+///
+/// in this order, each kind in the order of the problem; fixed variables are left out unless
+/// [`Options::fixed_variables`](crate::Options::fixed_variables) says otherwise. (Equation 13 of
+/// Wächter & Biegler, before the slacks' bounds are eliminated into D.) It must have n + n_s
+/// positive and m negative eigenvalues; where it has not, Ipopt adds to the diagonals, which are
+/// always part of the structure, and factors again.
+///
+/// One step is one `factor` and, with iterative refinement, a few `solve`s. All calls come from
+/// the thread that solves.
+pub trait LinearSolver {
+    /// Takes the structure: triplets of one triangle that count from zero, an entry given twice is
+    /// a sum. Called before the first `factor`, and again when the restoration phase begins.
+    fn analyse(
+        &mut self,
+        order: usize,
+        rows: &[i32],
+        columns: &[i32],
+    ) -> Result<(), LinearSolverError>;
+
+    /// Factors the matrix of these values, in the order of the structure.
+    fn factor(&mut self, values: &[f64]) -> Factorization;
+
+    /// Solves with the last factorisation, in place; several right-hand sides follow one another.
+    fn solve(&mut self, right_hand_sides: &mut [f64]);
+
+    /// The range of pivot tolerances, for a solver that can trade sparsity for accuracy. With
+    /// `None` Ipopt regularises at once when a solution is not accurate enough.
+    fn pivot_tolerances(&self) -> Option<PivotTolerances> {
+        None
+    }
+
+    /// The pivot tolerance of the next `factor`; called only if there is a range of them.
+    fn set_pivot_tolerance(&mut self, _tolerance: f64) {}
+}
+
+/// Pivot tolerances u, with 0 < initial ≤ largest < 1: each time that a solution is not accurate
+/// enough Ipopt raises u to u^¾, up to the largest, and factors the same matrix again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PivotTolerances {
+    /// The first one.
+    pub initial: f64,
+    /// The last one.
+    pub largest: f64,
+}
+
+/// How a factorisation went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Factorization {
+    /// The matrix is regular.
+    Regular {
+        /// How many of its eigenvalues are negative.
+        negative_eigenvalues: usize,
+    },
+    /// The matrix is singular; Ipopt regularises it.
+    Singular,
+    /// It could not be factored at all. Ipopt tries its restoration phase, and ends with
+    /// [`Status::LinearSolverFailed`](crate::Status::LinearSolverFailed) if that fails too.
+    Failed,
+}
+
+/// Why a [`LinearSolver`] does not take a system.
+#[derive(Debug, Error)]
+#[error(transparent)]
+pub struct LinearSolverError(Box<dyn Error + Send + Sync>);
+
+impl LinearSolverError {
+    /// Wraps the solver's own error.
+    pub fn new(error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        Self(error.into())
+    }
+}

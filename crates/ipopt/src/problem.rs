@@ -1,0 +1,128 @@
+use thiserror::Error;
+
+/// A nonlinear program with sparse derivatives.
+///
+/// With n variables and m constraints: `x` has n entries, `g` and the constraint multipliers m.
+/// `new_x` is false when `x` is the point of the previous call, so that intermediate results may be
+/// kept; the same for `new_multipliers`. Values are written in the order of the structure that was
+/// declared; entries given twice are summed.
+///
+/// An [`EvaluationError`], a NaN or an infinity all say "not defined here". For the objective and
+/// the constraints at a trial point Ipopt then shortens the step. At the start, and for a
+/// derivative at a point already accepted, it has nothing to shorten and ends with
+/// [`Status::InvalidNumber`](crate::Status::InvalidNumber).
+pub trait Problem {
+    /// How many variables and constraints there are.
+    fn dimensions(&self) -> Dimensions;
+
+    /// Writes the bounds. They come filled with −∞ and +∞: no bound. Equal bounds fix a variable or
+    /// make an equality constraint. Ipopt reads anything beyond ±1e19 as no bound.
+    fn bounds(&self, bounds: &mut Bounds);
+
+    /// Where ∂g/∂x may be nonzero: m rows, n columns.
+    fn jacobian_structure(&self) -> TripletStructure;
+
+    /// Where the lower triangle of the Lagrangian's Hessian may be nonzero: n rows, n columns,
+    /// row ≥ column.
+    fn hessian_structure(&self) -> TripletStructure;
+
+    /// f(x).
+    fn objective(&mut self, x: &[f64], new_x: bool) -> Result<f64, EvaluationError>;
+
+    /// ∇f(x), all n entries.
+    fn gradient(
+        &mut self,
+        x: &[f64],
+        new_x: bool,
+        gradient: &mut [f64],
+    ) -> Result<(), EvaluationError>;
+
+    /// g(x).
+    fn constraints(&mut self, x: &[f64], new_x: bool, g: &mut [f64])
+    -> Result<(), EvaluationError>;
+
+    /// ∂g/∂x.
+    fn jacobian(
+        &mut self,
+        x: &[f64],
+        new_x: bool,
+        values: &mut [f64],
+    ) -> Result<(), EvaluationError>;
+
+    /// `objective_factor` ∇²f(x) + Σ `multipliers[i]` ∇²gᵢ(x).
+    #[allow(clippy::too_many_arguments)]
+    fn hessian(
+        &mut self,
+        x: &[f64],
+        new_x: bool,
+        objective_factor: f64,
+        multipliers: &[f64],
+        new_multipliers: bool,
+        values: &mut [f64],
+    ) -> Result<(), EvaluationError>;
+
+    /// Scaling that the problem knows better than Ipopt can find out. Where given, it takes the
+    /// place of [`Options::nlp_scaling`](crate::Options::nlp_scaling).
+    fn scaling(&self) -> Option<Scaling> {
+        None
+    }
+}
+
+/// A function is not defined at the point where it was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("the function cannot be evaluated at this point")]
+pub struct EvaluationError;
+
+/// The size of a [`Problem`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dimensions {
+    /// n, at least one.
+    pub variables: usize,
+    /// m, possibly none.
+    pub constraints: usize,
+}
+
+/// Bounds of the variables (n entries each) and of the constraints (m entries each).
+#[derive(Debug, PartialEq)]
+pub struct Bounds<'a> {
+    /// Least values of the variables.
+    pub x_lower: &'a mut [f64],
+    /// Greatest values of the variables.
+    pub x_upper: &'a mut [f64],
+    /// Least values of the constraints.
+    pub g_lower: &'a mut [f64],
+    /// Greatest values of the constraints.
+    pub g_upper: &'a mut [f64],
+}
+
+/// A sparsity pattern as coordinates that count from zero.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TripletStructure {
+    /// Row of each entry.
+    pub rows: Vec<i32>,
+    /// Column of each entry.
+    pub columns: Vec<i32>,
+}
+
+impl TripletStructure {
+    /// The number of entries.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are no entries.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+}
+
+/// Factors by which Ipopt multiplies functions and variables before it measures anything.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scaling {
+    /// Factor of the objective; negative maximises.
+    pub objective: f64,
+    /// Positive factors of the variables (n); `None`: all one.
+    pub x: Option<Vec<f64>>,
+    /// Positive factors of the constraints (m); `None`: all one.
+    pub g: Option<Vec<f64>>,
+}
