@@ -8,7 +8,7 @@ use crate::number::short;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
-const PANEL_SIZE: [f64; 2] = [262.0, 92.0];
+const PANEL_SIZE: [f64; 2] = [290.0, 92.0];
 /// Below these heights (deg, deg/s, deg/s²) a curve counts as constant.
 const LEAST_SPANS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 

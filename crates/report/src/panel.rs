@@ -54,11 +54,14 @@ pub(crate) struct Placement {
 }
 
 const RULE_LABEL_INSET: f64 = 4.0;
+/// Height kept free of curves for a limit that is off scale and its label.
+const OFF_SCALE_STRIP: f64 = 16.0;
 
 impl Panel {
     /// The range of values shown: all curves and targets, and each limit that leaves the curves
-    /// [`style::LEAST_CURVE_SHARE`] of the height.
-    fn range(&self) -> Range {
+    /// [`style::LEAST_CURVE_SHARE`] of the height. The other limits get a strip at the edge that
+    /// they lie behind, out of the `height` in pixels.
+    fn range(&self, height: f64) -> Range {
         let is_target = |rule: &&Rule| rule.kind != RuleKind::Limit;
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         let targets = self.rules.iter().filter(is_target).map(|rule| rule.value);
@@ -73,14 +76,22 @@ impl Panel {
             let wider = range.including(limit);
             if wider.span() <= largest { wider } else { range }
         });
-        shown.padded(self.least_span)
+        let shown = shown.padded(self.least_span);
+        let strip = |off_scale: bool| if off_scale { OFF_SCALE_STRIP } else { 0.0 };
+        let is_off_scale = |beyond: &dyn Fn(f64) -> bool| {
+            self.rules.iter().any(|rule| rule.value.is_finite() && beyond(rule.value))
+        };
+        let above = strip(is_off_scale(&|value| value > shown.high));
+        let below = strip(is_off_scale(&|value| value < shown.low));
+        let per_pixel = shown.span() / (height - above - below);
+        Range { low: shown.low - below * per_pixel, high: shown.high + above * per_pixel }
     }
 
     /// Draws the panel over the nodes at `times`.
     pub fn draw(&self, svg: &mut Svg, times: &[f64], at: Placement) {
         let axes = Axes {
             time: Range::of(times.iter().copied()).unwrap_or(Range { low: 0.0, high: 1.0 }),
-            value: self.range(),
+            value: self.range(at.size[1]),
             at,
         };
         axes.draw_grid(svg);
@@ -159,7 +170,7 @@ impl Axes {
                 svg.text(at, Anchor::Middle, size, style::INK, &label);
             }
         }
-        for (value, label) in self.value.ticks((height / 28.0).max(2.0)) {
+        for (value, label) in self.value.ticks((height / 20.0).clamp(4.0, 6.0)) {
             let y = self.y(value);
             svg.line([left, y], [left + width, y], grid);
             svg.text([left - 5.0, y + 0.35 * size], Anchor::End, size, style::INK, &label);
@@ -188,13 +199,13 @@ impl Axes {
         let off_scale = !self.value.contains(rule.value);
         let y = match (off_scale, above) {
             (false, _) => self.y(rule.value),
-            (true, true) => top + 2.0,
-            (true, false) => top + self.at.size[1] - 2.0,
+            (true, true) => top + 2.5,
+            (true, false) => top + self.at.size[1] - 2.5,
         };
         svg.line([left, y], [right, y], stroke);
         if off_scale {
             let arrow = if above { '\u{2191}' } else { '\u{2193}' };
-            let baseline = if above { y + style::SMALL_SIZE + 1.0 } else { y - 4.0 };
+            let baseline = if above { y + style::SMALL_SIZE } else { y - 3.5 };
             let label = format!("{} {arrow} off scale", short(rule.value));
             let at = [right - RULE_LABEL_INSET, baseline];
             svg.text(at, Anchor::End, style::SMALL_SIZE, color, &label);
@@ -253,11 +264,11 @@ mod tests {
 
     #[test]
     fn near_limits_are_to_scale_and_far_ones_are_not() {
-        let range = panel(vec![-3.0, 3.0], &[-17.2, 17.2]).range();
+        let range = panel(vec![-3.0, 3.0], &[-17.2, 17.2]).range(100.0);
         assert!(range.contains(17.2) && range.contains(-17.2));
-        let range = panel(vec![-0.3, 0.3], &[-17.2, 17.2]).range();
+        let range = panel(vec![-0.3, 0.3], &[-17.2, 17.2]).range(100.0);
         assert!(!range.contains(17.2) && !range.contains(-17.2));
-        let range = panel(vec![40.0, 50.0], &[45.0, f64::INFINITY]).range();
+        let range = panel(vec![40.0, 50.0], &[45.0, f64::INFINITY]).range(100.0);
         assert!(range.span() < 20.0);
     }
 
