@@ -1,0 +1,314 @@
+"""docs/benchmarks.md out of the saved measurements."""
+
+from __future__ import annotations
+
+import math
+
+from .compare import BEST_PAPER, BEST_REDUCED, MANEUVERS, PAPER, REDUCED, Solve
+from .growth import JOINTS, STEPS
+from .measurements import Measurements
+from .ours import VARIANTS
+
+MISSING = "-"
+OTHER_RUN = "†"
+
+
+def render(kept: Measurements) -> str:
+    """The whole page."""
+    sections = [
+        _head(kept),
+        _paper_table(kept),
+        _best_table(kept, "CasADi's best, the paper's form", BEST_PAPER),
+        _best_table(kept, "CasADi given our reduced form", (REDUCED, *BEST_REDUCED)),
+        _derivative_table(kept),
+        _own_table(kept),
+        _growth_tables(kept),
+    ]
+    return "\n\n".join(section for section in sections if section) + "\n"
+
+
+def _head(kept: Measurements) -> str:
+    used = {value["run"] for value in kept.values.values()}
+    lines = [
+        "# Benchmarks",
+        "",
+        "Written by `make bench` (a subset, under ten minutes) and `make bench-all` (everything, hours). Do "
+        "not edit.",
+        "",
+        "All times are wall-clock seconds. *Ours* is `timing_s` trace + guess + solve of `righting solve`, "
+        "from parsed scenario to trajectory, the median of runs before and after each CasADi run; *process* "
+        "is the whole command with verification and files. CasADi's time is its solve call alone; building "
+        "and compiling come on top and are given apart. Both run with BLAS and OpenMP on one thread. A "
+        f"ratio marked {OTHER_RUN} sets numbers of two different runs against each other.",
+        "",
+        "CasADi is set up as its experts would: stage functions as flattened SX expressions with common "
+        "subexpressions removed, mapped over the stages; exact Hessian; decision vector and constraints in "
+        "stage order; squared distances. *Composed* derivatives are hand-written on top of CasADi: the "
+        "Jacobian and Hessian of the Runge-Kutta step put together from those of the differential equation, "
+        "mapped, and handed to nlpsol in place of its own. *Compiled* is CasADi's C through `gcc -O3 "
+        "-march=native`.",
+        "",
+    ]
+    for run in sorted(used & kept.runs.keys()):
+        machine = kept.runs[run]
+        count = sum(value["run"] == run for value in kept.values.values())
+        lines.append(
+            f"- {run}: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, "
+            f"CasADi {machine['casadi']}, gcc {machine['gcc']}; {count} measurements"
+        )
+    versions = next(
+        (
+            value["versions"]
+            for key, value in kept.values.items()
+            if key.startswith("ours/") and value["versions"]
+        ),
+        None,
+    )
+    if versions:
+        lines.append("- ours: " + ", ".join(f"{name} {version}" for name, version in versions.items()))
+    return "\n".join(lines)
+
+
+def _paper_table(kept: Measurements) -> str:
+    rows, ratios = [], []
+    for name in MANEUVERS:
+        ours, theirs = kept.get(f"ours/{name}/default"), kept.get(PAPER.key(name))
+        ratio = _ratio(ours, theirs)
+        if ratio and ours["run"] == theirs["run"]:
+            ratios.append(ratio)
+        rows.append(
+            [
+                name,
+                _seconds(ours, "plan_s"),
+                _seconds(ours, "process_s"),
+                _plain(ours, "iterations"),
+                _objective(ours),
+                _seconds(theirs, "solve_s"),
+                _plain(theirs, "iterations"),
+                _objective(theirs),
+                _excess(ours, theirs),
+                _ratio_text(ours, theirs),
+            ]
+        )
+    table = _table(
+        [
+            "maneuver",
+            "ours",
+            "process",
+            "iterations",
+            "objective",
+            "CasADi",
+            "iterations",
+            "objective",
+            "ours above",
+            "ratio",
+        ],
+        rows,
+    )
+    mean = ""
+    if ratios:
+        value = math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios))
+        mean = f"\n\nGeometric mean of the {len(ratios)} ratios measured in one run: {value:,.0f}."
+    title = "## CasADi + Ipopt in the paper's form"
+    note = (
+        "13 + 2j states, constant guess, Ipopt and MUMPS as shipped in CasADi's wheel, derivatives by nlpsol "
+        "from mapped stage functions."
+    )
+    return f"{title}\n\n{note}\n\n{table}{mean}"
+
+
+def _best_table(kept: Measurements, title: str, solves: tuple[Solve, ...]) -> str:
+    rows = []
+    for name in MANEUVERS:
+        ours = kept.get(f"ours/{name}/default")
+        for solve in solves:
+            theirs = kept.get(solve.key(name))
+            if theirs is None:
+                continue
+            rows.append(
+                [
+                    name,
+                    f"{solve.solver}, {'composed, compiled' if solve.compiled else 'as nlpsol derives'}",
+                    _seconds(theirs, "build_s"),
+                    _seconds(theirs, "compile_s"),
+                    _seconds(theirs, "solve_s"),
+                    _plain(theirs, "iterations") if theirs["success"] else theirs["status"],
+                    _objective(theirs),
+                    _seconds(ours, "plan_s"),
+                    _excess(ours, theirs),
+                    _ratio_text(ours, theirs),
+                ]
+            )
+    if not rows:
+        return ""
+    header = [
+        "maneuver",
+        "CasADi",
+        "build",
+        "compile",
+        "solve",
+        "iterations",
+        "objective",
+        "ours",
+        "ours above",
+        "ratio",
+    ]
+    return f"## {title}\n\n{_table(header, rows)}"
+
+
+def _derivative_table(kept: Measurements) -> str:
+    rows = []
+    for name in MANEUVERS:
+        for form in ("full", "reduced"):
+            cells = [kept.get(f"derivatives/{name}/{form}/{variant}") for variant in DERIVATIVES]
+            if not any(cells):
+                continue
+            labels = ("default", f"{form}, stage, cold", f"{form}, MUMPS, cold")
+            ours = next((run for label in labels if (run := _per_iteration(kept, name, label, form))), None)
+            times = [cell["jacobian_ms"] + cell["hessian_ms"] if cell else None for cell in cells]
+            rows.append(
+                [
+                    name,
+                    form,
+                    *(f"{time:.2f}" if time else MISSING for time in times),
+                    f"{ours:.2f}" if ours else MISSING,
+                ]
+            )
+    if not rows:
+        return ""
+    header = ["maneuver", "form", *DERIVATIVES.values(), "ours, all evaluation"]
+    note = (
+        "Milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, on one "
+        "core. Ours is `timing_s` evaluate over iterations, so it holds every function evaluation of an iteration."
+    )
+    return f"## Derivatives of one iteration\n\n{note}\n\n{_table(header, rows)}"
+
+
+DERIVATIVES = {
+    "nlpsol": "as nlpsol derives",
+    "mapped": "mapped stage function",
+    "composed": "composed, mapped",
+    "compiled": "composed, compiled",
+}
+
+
+def _per_iteration(kept: Measurements, name: str, label: str, form: str) -> float | None:
+    run = kept.get(f"ours/{name}/{label}")
+    if not run or not run["iterations"] or (label == "default" and form == "full"):
+        return None
+    spent = run["timing_s"].get("evaluate")
+    return 1e3 * spent / run["iterations"] if spent else None
+
+
+def _own_table(kept: Measurements) -> str:
+    rows = []
+    for name in MANEUVERS:
+        for label in VARIANTS:
+            run = kept.get(f"ours/{name}/{label}")
+            if run is None:
+                continue
+            iterations = run["iterations"] or math.nan
+            rows.append(
+                [
+                    name,
+                    label,
+                    _seconds(run, "plan_s"),
+                    str(run["iterations"]),
+                    _objective(run),
+                    *(
+                        f"{1e3 * run['timing_s'].get(part, math.nan) / iterations:.2f}"
+                        for part in ("evaluate", "linear_algebra")
+                    ),
+                    f"{run['peak_mib']:.0f}",
+                    "yes" if run["verified"] else run["status"],
+                ]
+            )
+    if not rows:
+        return ""
+    header = [
+        "maneuver",
+        "variant",
+        "ours",
+        "iterations",
+        "objective",
+        "evaluate, ms/it.",
+        "linear algebra, ms/it.",
+        "peak MiB",
+        "verified",
+    ]
+    note = (
+        "*Cold* is the paper's constant guess, *continuation* the program's own choice of start. Iterations "
+        "are those of the asked grid."
+    )
+    return f"## Inside ours\n\n{note}\n\n{_table(header, rows)}"
+
+
+def _growth_tables(kept: Measurements) -> str:
+    parts = []
+    for kind, values, what in (
+        ("joints", JOINTS, "joints, 20° slew at N = 600, arm of one mass and reach"),
+        ("steps", STEPS, "steps, the 20° slew of canadarm2_table, constant guess"),
+    ):
+        rows = []
+        for value in values:
+            run = kept.get(f"growth/{kind}/{value}")
+            if run is None:
+                continue
+            spent = sum(run["timing_s"].get(part, 0.0) for part in ("evaluate", "linear_algebra"))
+            each = 1e3 * spent / run["iterations"] if run["iterations"] else math.nan
+            rows.append(
+                [
+                    str(value),
+                    _seconds(run, "plan_s"),
+                    f"{run['timing_s']['trace']:.3f}",
+                    str(run["iterations"]),
+                    f"{each:.2f}",
+                    f"{run['peak_mib']:.0f}",
+                    run["status"],
+                ]
+            )
+        if rows:
+            header = [kind, "ours", "trace", "iterations", "ms/it.", "peak MiB", "status"]
+            parts.append(f"## Growth with {what}\n\n{_table(header, rows)}")
+    return "\n\n".join(parts)
+
+
+def _table(header: list[str], rows: list[list[str]]) -> str:
+    lines = ["| " + " | ".join(header) + " |", "| --- |" + " ---: |" * (len(header) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def _ratio(ours: dict | None, theirs: dict | None) -> float | None:
+    if not ours or not theirs or not theirs["success"] or not ours["plan_s"]:
+        return None
+    return theirs["solve_s"] / ours["plan_s"]
+
+
+def _ratio_text(ours: dict | None, theirs: dict | None) -> str:
+    ratio = _ratio(ours, theirs)
+    if ratio is None:
+        return MISSING
+    mark = "" if ours["run"] == theirs["run"] else OTHER_RUN
+    return f"{ratio:,.1f}{mark}" if ratio < 100 else f"{ratio:,.0f}{mark}"
+
+
+def _excess(ours: dict | None, theirs: dict | None) -> str:
+    """How far our objective lies above CasADi's, negative when it is better."""
+    if not ours or not theirs or not ours.get("objective") or not theirs["success"]:
+        return MISSING
+    return f"{100 * (ours['objective'] / theirs['objective'] - 1):+.3f} %"
+
+
+def _seconds(value: dict | None, field: str) -> str:
+    if not value or value.get(field) is None:
+        return MISSING
+    seconds = value[field]
+    return f"{seconds:.0f}" if seconds >= 100 else f"{seconds:.3g}"
+
+
+def _plain(value: dict | None, field: str) -> str:
+    return str(value[field]) if value else MISSING
+
+
+def _objective(value: dict | None) -> str:
+    return f"{value['objective']:.6g}" if value and value.get("objective") is not None else MISSING
