@@ -179,7 +179,8 @@ def _derivative_table(kept: Measurements) -> str:
     header = ["maneuver", "form", *DERIVATIVES.values(), "ours, all evaluation"]
     note = (
         "Milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, on one "
-        "core. Ours is `timing_s` evaluate over iterations, so it holds every function evaluation of an iteration."
+        "core. Ours is `timing_s` evaluate over iterations, so it holds every function "
+        "evaluation of an iteration."
     )
     return f"## Derivatives of one iteration\n\n{note}\n\n{_table(header, rows)}"
 

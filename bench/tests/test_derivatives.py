@@ -34,10 +34,10 @@ class NlpDerivatives(unittest.TestCase):
         oracle = ca.Function(
             "nlp", [nlp["x"], ca.MX.sym("p", 0)], [nlp["f"], nlp["g"]], ["x", "p"], ["f", "g"]
         )
-        jacobian = oracle.factory("jac", ["x", "p"], ["g", "jac:g:x"])
+        jacobian = oracle.factory("nlp_jac_g", ["x", "p"], ["g", "jac:g:x"])
         outputs = ["grad:gamma:x", "hess:gamma:x:x"] if mirrored else ["triu:hess:gamma:x:x"]
         inputs = ["x", "p", "lam:f", "lam:g"]
-        hessian = oracle.factory("hess", inputs, outputs, {"gamma": ["f", "g"]})
+        hessian = oracle.factory("nlp_hess_l", inputs, outputs, {"gamma": ["f", "g"]})
 
         generator = np.random.default_rng(3)
         point = transcription.guess + 0.1 * generator.standard_normal(transcription.guess.size)
