@@ -72,7 +72,7 @@ pub enum SolveError {
         upper: f64,
     },
     /// A vector does not fit the problem.
-    #[error("the {vector} has {found} entries where the problem needs {expected}")]
+    #[error("{found} entries of the {vector} where the problem needs {expected}")]
     WrongLength {
         /// Which vector.
         vector: VectorName,

@@ -11,16 +11,21 @@ use thiserror::Error;
 /// ```
 ///
 /// in this order, each kind in the order of the problem; fixed variables are left out unless
-/// [`Options::fixed_variables`](crate::Options::fixed_variables) says otherwise. (Equation 13 of
-/// Wächter & Biegler, before the slacks' bounds are eliminated into D.) It must have n + n_s
-/// positive and m negative eigenvalues; where it has not, Ipopt adds to the diagonals, which are
-/// always part of the structure, and factors again.
+/// [`Options::fixed_variables`](crate::Options::fixed_variables) says otherwise. All triplets are
+/// in the lower triangle, and the whole diagonal is among them. D_x and D_s hold the barrier terms
+/// and the regularisation, D_c and D_d are zero unless the constraints are regularised. (Wächter &
+/// Biegler 2006, section 3.1, with the slacks kept.)
 ///
-/// One step is one `factor` and, with iterative refinement, a few `solve`s. All calls come from
-/// the thread that solves.
+/// The matrix must have as many negative eigenvalues as there are constraints, or Ipopt adds to
+/// the diagonal and factors again. One iteration is one factorisation, or a few, and with iterative
+/// refinement a few solutions. At a cold start there is one more, of the system that gives
+/// least-squares multipliers: an identity in place of W + D_x and D_s.
+///
+/// All calls come from the thread that solves.
 pub trait LinearSolver {
     /// Takes the structure: triplets of one triangle that count from zero, an entry given twice is
-    /// a sum. Called before the first `factor`, and again when the restoration phase begins.
+    /// a sum. Called before the first `factor`; the structure stays the same throughout a solve,
+    /// restoration phase included.
     fn analyse(
         &mut self,
         order: usize,

@@ -3,6 +3,8 @@
 
 pub mod bunch_kaufman;
 pub mod hock_schittkowski;
+pub mod meddling;
+pub mod quadratic;
 
 use righting_ipopt::*;
 
