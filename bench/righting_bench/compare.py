@@ -31,6 +31,8 @@ QUICK_PAPER = ("slew_2dof", "detumble_2dof")
 QUICK_REDUCED = ("slew_2dof", "detumble_2dof", "slew_4dof")
 # Runs of ours before and again after each CasADi run.
 REPEATS = 2
+# Load average above which wall-clock times are no longer this program's alone.
+BUSY = 0.5
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,10 @@ def compare(root: Path, program: Path, only: list[str] | None, everything: bool,
     """
     kept = Measurements.load(root / "results")
     run = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
-    kept.runs[run] = dataclasses.asdict(this_machine())
+    machine = this_machine()
+    if machine.load > BUSY:
+        _announce(f"warning: load average {machine.load:.1f}, the times will be too long")
+    kept.runs[run] = dataclasses.asdict(machine)
     names = only or MANEUVERS
     complete = everything or bool(only)
     for name in names:

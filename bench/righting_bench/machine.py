@@ -13,13 +13,14 @@ import casadi as ca
 
 @dataclass(frozen=True)
 class Machine:
-    """Identity of a run's machine and tools."""
+    """Identity of a run's machine and tools, and how busy it was at the start (load average)."""
 
     cpu: str
     cores: int
     system: str
     gcc: str
     casadi: str
+    load: float
 
 
 def this_machine() -> Machine:
@@ -37,4 +38,5 @@ def this_machine() -> Machine:
         system=release,
         gcc=gcc.strip(),
         casadi=ca.__version__,
+        load=os.getloadavg()[0],
     )

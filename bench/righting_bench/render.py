@@ -54,7 +54,8 @@ def _head(kept: Measurements) -> str:
         count = sum(value["run"] == run for value in kept.values.values())
         lines.append(
             f"- {run}: {machine['cpu']}, {machine['cores']} cores, {machine['system']}, "
-            f"CasADi {machine['casadi']}, gcc {machine['gcc']}; {count} measurements"
+            f"CasADi {machine['casadi']}, gcc {machine['gcc']}, load average "
+            f"{machine['load']:.1f} at the start; {count} measurements"
         )
     versions = next(
         (
@@ -178,7 +179,7 @@ def _derivative_table(kept: Measurements) -> str:
         return ""
     header = ["maneuver", "form", *DERIVATIVES.values(), "ours, all evaluation"]
     note = (
-        "Milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, on one "
+        "Processor milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, on one "
         "core. Ours is `timing_s` evaluate over iterations, so it holds every function "
         "evaluation of an iteration."
     )
