@@ -73,7 +73,7 @@ mod trigonometry;
 pub use derivative::{gradient, hessian_lower, jacobian};
 pub use expr::Expr;
 pub use function::{
-    Function, FunctionBuilder, FunctionError, InstructionSet, LANES, Port, Workspace,
+    Backend, Function, FunctionBuilder, FunctionError, InstructionSet, LANES, Port, Workspace,
 };
 pub use graph::{Graph, GraphScope, trace};
 pub use sparsity::{SparseMatrix, Sparsity};

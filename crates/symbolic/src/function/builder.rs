@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::backend::Evaluator;
 use super::compile::{Program, compile};
-use super::{Compiled, Function, FunctionError, InstructionSet, Port};
+use super::{Compiled, Function, FunctionError, Port};
 use crate::expr::Expr;
 use crate::graph::{Arena, Node, NodeId};
 use crate::sparsity::SparseMatrix;
@@ -82,8 +83,8 @@ impl FunctionBuilder {
             name: self.name,
             inputs: self.inputs.into_iter().map(|(port, _)| port).collect(),
             outputs: self.outputs.into_iter().map(|(port, _)| port).collect(),
+            evaluator: Evaluator::best(&tape),
             tape,
-            instruction_set: InstructionSet::detect(),
         })))
     }
 

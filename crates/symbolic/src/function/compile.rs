@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::tape::{Instruction, Layout, Opcode, Register, Tape};
+use super::tape::{Instruction, Layout, MASKS, Opcode, Register, Tape};
 use crate::graph::{Arena, Node, NodeId};
 
 /// What to compile: output values over input symbols, both by position in the workspace.
@@ -19,7 +19,7 @@ pub(super) fn compile(program: &Program) -> Tape {
     let arena = program.arena;
     let size = program.outputs.iter().map(|&id| id as usize + 1).max().unwrap_or(0);
 
-    let mut constants = Vec::new();
+    let mut constants = MASKS.to_vec();
     let mut place = vec![UNASSIGNED; size];
     let outputs_start = program.inputs.len();
     let constants_start = outputs_start + program.outputs.len();

@@ -1,99 +1,106 @@
-//! Runs a tape over one block of lanes.
+//! Runs instructions of a tape over one block of lanes: the path for machines without machine code
+//! of our own, and the reference for those that have it.
 
+use std::ops::Range;
+
+use super::LANES;
 use super::isa::InstructionSet;
-use super::tape::{Opcode, Tape};
+use super::tape::{Instruction, Opcode, Tape};
 use super::workspace::Lanes;
 use crate::op::{self, Binary, Unary};
 use crate::trigonometry::{self, REDUCTION_LIMIT, sin_reduced};
 
-/// Evaluates the tape in the register file laid out by it.
-pub(super) fn run(tape: &Tape, instruction_set: InstructionSet, registers: &mut [Lanes]) {
+/// Evaluates a stretch of the tape in the register file laid out by it.
+pub(super) fn run(
+    tape: &Tape,
+    range: Range<usize>,
+    instruction_set: InstructionSet,
+    registers: &mut [Lanes],
+) {
     assert_eq!(registers.len(), tape.layout.registers());
+    let instructions = &tape.instructions[range];
     match instruction_set {
-        InstructionSet::Portable => interpret(tape, registers),
+        InstructionSet::Portable => interpret(instructions, registers),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a function only gets an instruction set that this machine has.
-        InstructionSet::Avx2 => unsafe { interpret_avx2(tape, registers) },
+        InstructionSet::Avx2 => unsafe { interpret_avx2(instructions, registers) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        InstructionSet::Avx512 => unsafe { interpret_avx512(tape, registers) },
+        InstructionSet::Avx512 => unsafe { interpret_avx512(instructions, registers) },
         #[cfg(not(target_arch = "x86_64"))]
-        InstructionSet::Avx2 | InstructionSet::Avx512 => interpret(tape, registers),
+        InstructionSet::Avx2 | InstructionSet::Avx512 => interpret(instructions, registers),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn interpret_avx2(tape: &Tape, registers: &mut [Lanes]) {
-    interpret(tape, registers);
+fn interpret_avx2(instructions: &[Instruction], registers: &mut [Lanes]) {
+    interpret(instructions, registers);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq")]
-fn interpret_avx512(tape: &Tape, registers: &mut [Lanes]) {
-    interpret(tape, registers);
+fn interpret_avx512(instructions: &[Instruction], registers: &mut [Lanes]) {
+    interpret(instructions, registers);
+}
+
+/// Evaluates an expression for each lane `l`. A macro, since a closure's code would not be compiled
+/// for the instruction set of the function around it.
+macro_rules! lanes {
+    ($l:ident => $value:expr) => {{
+        let mut result = [0.0; LANES];
+        for ($l, result) in result.iter_mut().enumerate() {
+            *result = $value;
+        }
+        result
+    }};
 }
 
 #[inline(always)]
-fn interpret(tape: &Tape, registers: &mut [Lanes]) {
-    for instruction in &tape.instructions {
-        let [a, b, c] = instruction.operands.map(|register| {
-            debug_assert!((register as usize) < registers.len());
-            // SAFETY: `Tape::new` checked every register against the layout, whose size `run`
-            // compared with the slice's length.
-            unsafe { *registers.get_unchecked(register as usize) }
-        });
+fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
+    for instruction in instructions {
+        let [a, b, c] = instruction.operands;
+        debug_assert!([a, b, c].iter().all(|&register| (register as usize) < registers.len()));
+        // SAFETY: `Tape::new` checked every register against the layout, whose size `run` compared
+        // with the slice's length.
+        let read = |register: u32| unsafe { &registers.get_unchecked(register as usize).0 };
+        let (x, y) = (read(a), read(b));
         let result = match instruction.opcode {
-            Opcode::Copy => a,
-            Opcode::Unary(op) => unary(op, a),
-            Opcode::Binary(op) => binary(op, a, b),
-            Opcode::Select => lanes(|l| op::select(a.0[l], b.0[l], c.0[l])),
+            Opcode::Binary(Binary::Add) => lanes!(l => x[l] + y[l]),
+            Opcode::Binary(Binary::Sub) => lanes!(l => x[l] - y[l]),
+            Opcode::Binary(Binary::Mul) => lanes!(l => x[l] * y[l]),
+            Opcode::Binary(Binary::Div) => lanes!(l => x[l] / y[l]),
+            Opcode::Unary(Unary::Neg) => lanes!(l => -x[l]),
+            Opcode::Unary(Unary::Abs) => lanes!(l => x[l].abs()),
+            Opcode::Unary(Unary::Sqrt) => lanes!(l => x[l].sqrt()),
+            Opcode::Unary(Unary::Sin) if all_reducible(x) => lanes!(l => sin_reduced(x[l], 0)),
+            Opcode::Unary(Unary::Cos) if all_reducible(x) => lanes!(l => sin_reduced(x[l], 1)),
+            Opcode::Unary(Unary::Sin) => lanes!(l => trigonometry::sin(x[l])),
+            Opcode::Unary(Unary::Cos) => lanes!(l => trigonometry::cos(x[l])),
+            Opcode::Unary(op) => unary(op, x),
+            Opcode::Binary(op) => binary(op, x, y),
+            Opcode::Select => {
+                let z = read(c);
+                lanes!(l => op::select(x[l], y[l], z[l]))
+            }
+            Opcode::Copy => *x,
         };
         // SAFETY: as above.
-        unsafe { *registers.get_unchecked_mut(instruction.result as usize) = result };
+        unsafe { registers.get_unchecked_mut(instruction.result as usize).0 = result };
     }
 }
 
 #[inline(always)]
-fn lanes(value: impl Fn(usize) -> f64) -> Lanes {
-    Lanes(std::array::from_fn(value))
-}
-
-#[inline(always)]
-fn unary(op: Unary, x: Lanes) -> Lanes {
-    match op {
-        Unary::Neg => lanes(|l| -x.0[l]),
-        Unary::Abs => lanes(|l| x.0[l].abs()),
-        Unary::Sqrt => lanes(|l| x.0[l].sqrt()),
-        Unary::Sin => circular(x, 0, trigonometry::sin),
-        Unary::Cos => circular(x, 1, trigonometry::cos),
-        _ => by_lane(op, x),
-    }
-}
-
-#[inline(always)]
-fn circular(x: Lanes, quarter_turns: u64, scalar: fn(f64) -> f64) -> Lanes {
-    let in_range = x.0.iter().fold(true, |all, x| all & (x.abs() <= REDUCTION_LIMIT));
-    if in_range { lanes(|l| sin_reduced(x.0[l], quarter_turns)) } else { lanes(|l| scalar(x.0[l])) }
+fn all_reducible(x: &[f64; LANES]) -> bool {
+    x.iter().fold(true, |all, x| all & (x.abs() <= REDUCTION_LIMIT))
 }
 
 #[inline(never)]
-fn by_lane(op: Unary, x: Lanes) -> Lanes {
-    lanes(|l| op.apply(x.0[l]))
-}
-
-#[inline(always)]
-fn binary(op: Binary, x: Lanes, y: Lanes) -> Lanes {
-    match op {
-        Binary::Add => lanes(|l| x.0[l] + y.0[l]),
-        Binary::Sub => lanes(|l| x.0[l] - y.0[l]),
-        Binary::Mul => lanes(|l| x.0[l] * y.0[l]),
-        Binary::Div => lanes(|l| x.0[l] / y.0[l]),
-        Binary::Rem | Binary::Atan2 | Binary::Pow => by_lane_pair(op, x, y),
-    }
+fn unary(op: Unary, x: &[f64; LANES]) -> [f64; LANES] {
+    lanes!(l => op.apply(x[l]))
 }
 
 #[inline(never)]
-fn by_lane_pair(op: Binary, x: Lanes, y: Lanes) -> Lanes {
-    lanes(|l| op.apply(x.0[l], y.0[l]))
+fn binary(op: Binary, x: &[f64; LANES], y: &[f64; LANES]) -> [f64; LANES] {
+    lanes!(l => op.apply(x[l], y[l]))
 }

@@ -1,56 +1,31 @@
 //! Compiled functions.
 
+mod backend;
 mod builder;
 mod compile;
 mod error;
 mod interpreter;
 mod isa;
+mod native;
+mod port;
 mod tape;
 mod workspace;
 
 use std::fmt;
 use std::sync::Arc;
 
+pub use backend::Backend;
 pub use builder::FunctionBuilder;
 pub use error::FunctionError;
 pub use isa::InstructionSet;
+pub use port::Port;
 pub use workspace::Workspace;
 
-use crate::sparsity::Sparsity;
+use backend::Evaluator;
 use tape::Tape;
 
 /// Number of points evaluated side by side in a block.
-pub const LANES: usize = 16;
-
-/// A named input or output: a vector, or the nonzeros of a sparse matrix.
-#[derive(Clone, Debug)]
-pub struct Port {
-    name: String,
-    len: usize,
-    sparsity: Option<Sparsity>,
-}
-
-impl Port {
-    /// The name given when the function was built.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Number of values for one point.
-    pub fn len(&self) -> usize {
-        self.len
-    }
-
-    /// Whether the port carries no values.
-    pub fn is_empty(&self) -> bool {
-        self.len == 0
-    }
-
-    /// For a sparse matrix, which entry each value is.
-    pub fn sparsity(&self) -> Option<&Sparsity> {
-        self.sparsity.as_ref()
-    }
-}
+pub const LANES: usize = 8;
 
 /// An immutable compiled function from named inputs to named outputs. Cloning shares it.
 ///
@@ -64,7 +39,7 @@ struct Compiled {
     inputs: Vec<Port>,
     outputs: Vec<Port>,
     tape: Tape,
-    instruction_set: InstructionSet,
+    evaluator: Evaluator,
 }
 
 impl Function {
@@ -103,23 +78,22 @@ impl Function {
         self.0.tape.kinds()
     }
 
-    /// The instruction set that evaluates this function.
-    pub fn instruction_set(&self) -> InstructionSet {
-        self.0.instruction_set
+    /// What evaluates this function.
+    pub fn backend(&self) -> Backend {
+        self.0.evaluator.backend()
     }
 
-    /// The same function evaluated with another instruction set; `None` if this machine lacks it.
-    /// Results do not depend on it.
-    pub fn with_instruction_set(&self, instruction_set: InstructionSet) -> Option<Function> {
-        instruction_set.is_available().then(|| {
-            Function(Arc::new(Compiled {
-                name: self.0.name.clone(),
-                inputs: self.0.inputs.clone(),
-                outputs: self.0.outputs.clone(),
-                tape: self.0.tape.clone(),
-                instruction_set,
-            }))
-        })
+    /// The same function evaluated in another way; `None` if this machine cannot. It needs
+    /// workspaces of its own.
+    pub fn with_backend(&self, backend: Backend) -> Option<Function> {
+        let evaluator = Evaluator::new(&self.0.tape, backend)?;
+        Some(Function(Arc::new(Compiled {
+            name: self.0.name.clone(),
+            inputs: self.0.inputs.clone(),
+            outputs: self.0.outputs.clone(),
+            tape: self.0.tape.clone(),
+            evaluator,
+        })))
     }
 
     /// Memory for one evaluation at a time; each thread needs its own.
@@ -133,7 +107,7 @@ impl Function {
     /// If the workspace was made for another function.
     pub fn evaluate_block(&self, workspace: &mut Workspace) {
         workspace.assert_fits(self);
-        interpreter::run(&self.0.tape, self.0.instruction_set, workspace.registers_mut());
+        self.0.evaluator.run(&self.0.tape, workspace.registers_mut());
     }
 
     /// Evaluates one point. `inputs` and `outputs` hold one slice for each port. Allocates nothing.
@@ -207,7 +181,7 @@ impl fmt::Debug for Function {
             .field("outputs", &self.output_ports())
             .field("instructions", &self.instruction_count())
             .field("registers", &self.register_count())
-            .field("instruction_set", &self.instruction_set())
+            .field("backend", &self.backend())
             .finish()
     }
 }

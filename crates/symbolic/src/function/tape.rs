@@ -68,7 +68,29 @@ impl Layout {
     pub(super) fn first_temporary(&self) -> usize {
         self.first_constant() + self.constants
     }
+
+    pub(super) fn is_output(&self, register: Register) -> bool {
+        (self.first_output()..self.first_constant()).contains(&(register as usize))
+    }
+
+    /// Holds 0.0.
+    pub(super) fn zero(&self) -> Register {
+        self.first_constant() as Register
+    }
+
+    /// Holds the sign bit alone.
+    pub(super) fn sign_mask(&self) -> Register {
+        self.zero() + 1
+    }
+
+    /// Holds every bit but the sign.
+    pub(super) fn magnitude_mask(&self) -> Register {
+        self.zero() + 2
+    }
 }
+
+/// The constants that every tape starts with, for machine code: see [`Layout::zero`] and those after.
+pub(super) const MASKS: [f64; 3] = [0.0, -0.0, f64::from_bits(u64::MAX >> 1)];
 
 /// A straight-line program over one register file. Every register index is below
 /// `layout.registers()`: [`Tape::new`] checks it, and the interpreter relies on it.
@@ -89,6 +111,12 @@ impl Tape {
             assert!(operands.iter().all(|&operand| (operand as usize) < count));
         }
         Tape { layout, constants, instructions }
+    }
+
+    /// Computes nothing.
+    pub(super) fn empty() -> Self {
+        let layout = Layout { constants: MASKS.len(), ..Layout::default() };
+        Self::new(layout, MASKS.to_vec(), Vec::new())
     }
 
     pub(super) fn kinds(&self) -> Vec<(&'static str, usize)> {
