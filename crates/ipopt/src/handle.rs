@@ -40,7 +40,7 @@ impl Handle {
     }
 
     pub(crate) fn set_all(&self, options: &Options) -> Result<(), SolveError> {
-        options.changed().iter().try_for_each(|(name, value)| self.set(name, value))
+        options.to_pass().iter().try_for_each(|(name, value)| self.set(name, value))
     }
 
     pub(crate) fn set(&self, name: &str, value: &OptionValue) -> Result<(), SolveError> {

@@ -50,9 +50,10 @@ pub fn versions() -> Versions {
     }
 }
 
-const PREFIXES: [(&str, &str); 7] = [
+const PREFIXES: [(&str, &str); 8] = [
     ("libipopt", "Ipopt"),
     ("libdmumps", "MUMPS"),
+    ("libcoinmumps", "MUMPS"),
     ("liblapack", "LAPACK"),
     ("libblas", "BLAS"),
     ("libopenblas", "BLAS"),
@@ -154,11 +155,12 @@ mod tests {
     }
 
     #[test]
-    #[cfg(target_os = "linux")]
+    #[cfg(all(target_os = "linux", ipopt_ma57_slot))]
     fn the_libraries_in_use_are_found() {
         let Versions { ipopt, linear_solvers, libraries } = versions();
         assert!(ipopt.starts_with("3."));
         assert!(linear_solvers.mumps);
+        // As Debian links them.
         for name in ["Ipopt", "MUMPS", "BLAS", "LAPACK"] {
             let found = libraries.iter().find(|library| library.name == name);
             assert!(found.is_some_and(|library| library.path.exists()), "{name}: {libraries:?}");

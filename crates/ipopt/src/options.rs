@@ -23,6 +23,9 @@ const RESERVED: [(&str, &str); 9] = [
     ("skip_finalize_solution_call", "the solution would be lost"),
 ];
 
+/// Options that are passed on even at their default, because Ipopt 3.14 has another one.
+const CHANGED_LATER: [&str; 2] = ["max_cpu_time", "honor_original_bounds"];
+
 macro_rules! options {
     ($($(#[doc = $doc:literal])+
        $field:ident: $type:ty = $default:expr, $name:literal $(, $range:expr)?;)*) => {
@@ -62,16 +65,15 @@ macro_rules! options {
                 self.extra.iter().try_for_each(|(name, _)| Self::check_extra(name))
             }
 
-            /// Ipopt's names and values of everything that is not at its default, extra options
-            /// last.
-            pub(crate) fn changed(&self) -> Vec<(&str, OptionValue)> {
+            /// Ipopt's names and values of what has to be passed on, extra options last.
+            pub(crate) fn to_pass(&self) -> Vec<(&str, OptionValue)> {
                 let default = Self::default();
-                let mut changed = Vec::new();
-                $(if self.$field != default.$field {
-                    changed.push(($name, self.$field.value()));
+                let mut to_pass = Vec::new();
+                $(if self.$field != default.$field || CHANGED_LATER.contains(&$name) {
+                    to_pass.push(($name, self.$field.value()));
                 })*
-                changed.extend(self.extra.iter().map(|(name, v)| (name.as_str(), v.clone())));
-                changed
+                to_pass.extend(self.extra.iter().map(|(name, v)| (name.as_str(), v.clone())));
+                to_pass
             }
 
             fn check_extra(name: &str) -> Result<(), SolveError> {

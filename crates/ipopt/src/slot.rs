@@ -70,6 +70,7 @@ pub(crate) fn with_solver<T>(
     (result, slot.report)
 }
 
+#[cfg_attr(not(ipopt_ma57_slot), allow(dead_code))]
 struct Slot<'a> {
     solver: &'a mut dyn LinearSolver,
     takes_tolerances: bool,
@@ -80,9 +81,9 @@ struct Slot<'a> {
     columns: Vec<i32>,
 }
 
+#[cfg_attr(not(ipopt_ma57_slot), allow(dead_code))]
 impl Slot<'_> {
     /// Runs `body` on the slot of the solve that this thread is in; `None` outside of one.
-    #[cfg(ipopt_ma57_slot)]
     fn with_current<T>(body: impl FnOnce(&mut Slot<'static>) -> T) -> Option<T> {
         let current = CURRENT.get();
         if current.is_null() {

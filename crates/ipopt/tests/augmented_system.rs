@@ -1,4 +1,5 @@
 //! The system that a linear solver gets is the one that its documentation describes.
+#![cfg(ipopt_ma57_slot)]
 
 mod support;
 

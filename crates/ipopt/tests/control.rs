@@ -3,11 +3,10 @@
 mod support;
 
 use righting_ipopt::*;
-use std::panic::{AssertUnwindSafe, catch_unwind, panic_any};
-use support::bunch_kaufman::BunchKaufman;
+use std::panic::panic_any;
 use support::hock_schittkowski::*;
 use support::meddling::{Meddling, Method, Mischief};
-use support::{assert_close, solve_from};
+use support::{assert_close, caught, solve_from};
 
 fn start() -> Start {
     Start::at(Hs071::START.to_vec())
@@ -58,15 +57,6 @@ fn the_callback_stops_the_solve() {
     assert_close(&solution.g, &Hs071::constraints(&solution.x), 1e-14);
 }
 
-/// The payload of the panic that `solve` must not have swallowed.
-fn caught<T>(solve: impl FnOnce() -> Result<Solution, SolveError>) -> T
-where
-    T: Copy + 'static,
-{
-    let payload = catch_unwind(AssertUnwindSafe(solve)).expect_err("the panic was swallowed");
-    *payload.downcast_ref().expect("another panic")
-}
-
 #[test]
 fn a_panic_in_the_problem_goes_on_after_the_solve() {
     let methods = [
@@ -100,58 +90,4 @@ fn a_panic_in_the_callback_goes_on_after_the_solve() {
         })
     });
     assert_eq!(found, 42);
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Step {
-    Analyse,
-    Factor,
-    Solve,
-}
-
-/// A linear solver that panics at one step, the second time it gets there if there is one.
-struct Panicking {
-    inner: BunchKaufman,
-    at: Step,
-    calls: usize,
-}
-
-impl Panicking {
-    fn step(&mut self, step: Step) {
-        if step == self.at {
-            self.calls += 1;
-            if step == Step::Analyse || self.calls == 2 {
-                panic_any(step);
-            }
-        }
-    }
-}
-
-impl LinearSolver for Panicking {
-    fn analyse(&mut self, n: usize, r: &[i32], c: &[i32]) -> Result<(), LinearSolverError> {
-        self.step(Step::Analyse);
-        self.inner.analyse(n, r, c)
-    }
-
-    fn factor(&mut self, values: &[f64]) -> Factorization {
-        self.step(Step::Factor);
-        self.inner.factor(values)
-    }
-
-    fn solve(&mut self, right_hand_sides: &mut [f64]) {
-        self.step(Step::Solve);
-        self.inner.solve(right_hand_sides);
-    }
-}
-
-#[test]
-fn a_panic_in_the_linear_solver_goes_on_after_the_solve() {
-    for at in [Step::Analyse, Step::Factor, Step::Solve] {
-        let mut solver = Panicking { inner: BunchKaufman::default(), at, calls: 0 };
-        let found: Step = caught(|| {
-            solve_with(&mut Dense(Hs071), &Options::default(), &start(), &mut solver, go_on)
-        });
-        assert_eq!(found, at);
-        assert!(solver.calls <= 2, "it was called again");
-    }
 }

@@ -1,4 +1,5 @@
 //! Ipopt with a linear solver of one's own.
+#![cfg(ipopt_ma57_slot)]
 
 mod support;
 

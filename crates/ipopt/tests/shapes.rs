@@ -46,7 +46,6 @@ fn all_variables_fixed() {
     assert_eq!(solution.x, [1.0, 2.0]);
     assert_eq!(solution.objective, 5.0);
     assert_eq!(solution.iterations, 0);
-    assert_eq!(solution.last_iteration, None);
 
     let mut impossible = problem.subject_to(&[(0, 1.0)], (5.0, 5.0));
     let solution = solve_from(&mut impossible, &[7.0, 7.0], &Options::default());

@@ -3,6 +3,7 @@
 mod support;
 
 use righting_ipopt::*;
+#[cfg(ipopt_ma57_slot)]
 use support::bunch_kaufman::BunchKaufman;
 use support::hock_schittkowski::*;
 
@@ -37,6 +38,7 @@ fn with_mumps_one_after_the_other() {
     agree(|| solve(&mut Dense(Hs100), &options, &start(), |_| Control::Continue).unwrap());
 }
 
+#[cfg(ipopt_ma57_slot)]
 #[test]
 fn with_a_solver_each_at_once() {
     let options = Options::default();
@@ -47,6 +49,7 @@ fn with_a_solver_each_at_once() {
     });
 }
 
+#[cfg(ipopt_ma57_slot)]
 #[test]
 fn two_solves_with_the_slot_do_overlap() {
     // Each waits within its solve until the other is within its own.

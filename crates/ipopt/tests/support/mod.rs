@@ -7,6 +7,7 @@ pub mod meddling;
 pub mod quadratic;
 
 use righting_ipopt::*;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Options and a start at `x`, to the end.
 pub fn solve_from<P: Problem>(problem: &mut P, x: &[f64], options: &Options) -> Solution {
@@ -21,4 +22,14 @@ pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
         let difference = (a - b).abs();
         assert!(difference <= tolerance * b.abs().max(1.0), "{found:?} is not {expected:?}");
     }
+}
+
+/// The payload of the panic that `solve` must not have swallowed.
+#[track_caller]
+pub fn caught<T>(solve: impl FnOnce() -> Result<Solution, SolveError>) -> T
+where
+    T: Copy + 'static,
+{
+    let payload = catch_unwind(AssertUnwindSafe(solve)).expect_err("the panic was swallowed");
+    *payload.downcast_ref().expect("another panic")
 }
