@@ -37,11 +37,15 @@ pub enum Error {
         limit_bytes: u64,
     },
     /// The text is not JSON.
-    #[error("{}: {path}line {line}, column {column}: not JSON: {reason}", file.display())]
+    #[error(
+        "{}: {path}{}line {line}, column {column}: not JSON: {reason}",
+        file.display(),
+        if path.is_empty() { "" } else { ": " }
+    )]
     NotJson {
         /// The file.
         file: PathBuf,
-        /// JSON path of the place, ending in `": "`; empty at the root.
+        /// JSON path of the place; empty at the root.
         path: String,
         /// Line, from 1.
         line: usize,

@@ -7,7 +7,7 @@
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -101,6 +101,7 @@ pub struct Horizon {
     pub duration_s: f64,
     /// Number of equal intervals N.
     #[schemars(with = "u64", range(min = 1, max = 100_000))]
+    #[serde(serialize_with = "whole_number")]
     pub steps: f64,
 }
 
@@ -166,7 +167,11 @@ pub struct Solver {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linear_solver: Option<LinearSolver>,
     /// Largest number of iterations; 3000 by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "optional_whole_number"
+    )]
     #[schemars(with = "Option<u64>", range(min = 1, max = 1_000_000))]
     pub max_iterations: Option<f64>,
     /// Convergence tolerance of the optimizer; 1e-8 by default.
@@ -271,8 +276,8 @@ pub struct Base {
     /// Inertia about the center of mass in body axes, kg m²; instead of `cube_side_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
-    /// Radius of the sphere about the center of mass that links keep out of, m; with
-    /// `inertia_kg_m2`.
+    /// Radius of the sphere about the center of mass that links keep out of, m; needed with
+    /// `inertia_kg_m2`, the cube's circumscribed sphere by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub keep_out_radius_m: Option<f64>,
@@ -362,6 +367,27 @@ fn require_slew_target(schema: &mut schemars::Schema) {
             { "properties": { "type": { "const": "detumble" }, "axis": false, "angle_deg": false } }
         ]),
     );
+}
+
+// Whole numbers are read as any number, so that 0.5 steps meets the same complaint as 0, and written
+// without a decimal point.
+
+fn whole_number<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if value.fract() == 0.0 && (0.0..9e15).contains(value) {
+        serializer.serialize_u64(*value as u64)
+    } else {
+        serializer.serialize_f64(*value)
+    }
+}
+
+fn optional_whole_number<S: Serializer>(
+    value: &Option<f64>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) => whole_number(value, serializer),
+        None => serializer.serialize_none(),
+    }
 }
 
 // The two untagged types are read by hand: serde's derived reader tries one alternative after the

@@ -1,15 +1,26 @@
 //! Slews and detumbles of free-floating spacecraft.
 #![forbid(unsafe_code)]
 
+pub mod collision;
 pub mod error;
 pub mod file;
 mod files;
+mod halton;
+pub mod initial;
+mod json;
+pub mod scenario;
+pub mod schema;
 pub mod solution;
+pub mod system_description;
 pub mod trajectory;
 pub mod trajectory_csv;
 pub mod verification;
 
+pub use collision::CollisionModel;
 pub use error::Error;
+pub use initial::Initial;
+pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, Versions};
+pub use system_description::{JointLimits, SystemDescription};
 pub use trajectory::{Interval, Node, Trajectory};
 pub use verification::{Check, Sense, Verification};

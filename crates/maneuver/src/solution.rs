@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::json::Document;
 use crate::verification::Verification;
 use crate::{file, files};
 
@@ -179,15 +180,8 @@ impl Solution {
     /// # Errors
     /// Those of reading, and the JSON path of what is wrong in the file.
     pub fn read_json(file: &Path) -> Result<Self, Error> {
-        let text = files::read(file, "a solution file", files::JSON_LIMIT_BYTES)?;
-        let mut source = serde_json::Deserializer::from_str(&text);
-        serde_path_to_error::deserialize(&mut source).map_err(|error| Error::NotJson {
-            file: file.to_owned(),
-            path: format!("{}: ", error.path()),
-            line: error.inner().line(),
-            column: error.inner().column(),
-            reason: error.inner().to_string(),
-        })
+        let document = Document::read(file, "a solution file")?;
+        document.decode()
     }
 }
 

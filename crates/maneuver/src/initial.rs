@@ -1,0 +1,133 @@
+//! State at the start of a maneuver.
+
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State};
+
+use crate::error::Error;
+use crate::file;
+use crate::json::{Bounds, Number, Place};
+use crate::system_description::{JointLimits, SystemDescription, unit_quaternion};
+
+const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3600.0, 3600.0);
+const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
+
+/// State at the start: the base's body frame is at the origin, the system's center of mass at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Initial {
+    /// Attitude of the base, body → inertial; of unit length.
+    pub attitude: Quaternion<f64>,
+    /// Velocity of the body-frame origin that leaves the center of mass at rest, inertial axes, m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// Angular rate of the base, body axes, rad/s.
+    pub angular_rate_rad_s: Vector3<f64>,
+    /// Joint angles, one a joint, rad; within the limits.
+    pub joint_angles_rad: Vec<f64>,
+    /// Joint rates, one a joint, rad/s; within the limits.
+    pub joint_rates_rad_s: Vec<f64>,
+    /// Angular momentum about the system's center of mass h₀, inertial axes, N m s; it never changes.
+    pub angular_momentum_n_m_s: Vector3<f64>,
+}
+
+impl Initial {
+    pub(crate) fn from_file(
+        initial: &file::Initial,
+        system: &SystemDescription,
+        place: &Place,
+    ) -> Result<Self, Error> {
+        let limits = &system.joint_limits;
+        let attitude = match initial.attitude {
+            Some(wxyz) => unit_quaternion(wxyz, &place.key("attitude"))?,
+            None => Quaternion::identity(),
+        };
+        let rate_place = place.key("angular_rate_deg_s");
+        let angular_rate_deg_s = rate_place
+            .all_within(initial.angular_rate_deg_s.unwrap_or_default(), ANGULAR_RATE_DEG_S)?;
+        let omega = Vector3::from(angular_rate_deg_s).map(f64::to_radians);
+        let q = joint_angles(initial, limits, &place.key("joint_angles_deg"))?;
+        let qdot = joint_rates(initial, limits, &place.key("joint_rates_deg_s"))?;
+        let model = &system.model;
+        let at_rest = Vector3::zeros();
+        Ok(Self {
+            attitude,
+            velocity_m_s: model.base_velocity(&attitude, &omega, &q, &qdot, &at_rest),
+            angular_rate_rad_s: omega,
+            angular_momentum_n_m_s: attitude
+                .to_inertial(&model.angular_momentum(&omega, &q, &qdot)),
+            joint_angles_rad: q,
+            joint_rates_rad_s: qdot,
+        })
+    }
+
+    /// The full state at the start.
+    pub fn state(&self) -> State<f64> {
+        State {
+            position: Vector3::zeros(),
+            attitude: self.attitude,
+            velocity: self.velocity_m_s,
+            angular_rate: self.angular_rate_rad_s,
+            joint_angles: self.joint_angles_rad.clone(),
+            joint_rates: self.joint_rates_rad_s.clone(),
+        }
+    }
+}
+
+fn joint_angles(
+    initial: &file::Initial,
+    limits: &[JointLimits],
+    place: &Place,
+) -> Result<Vec<f64>, Error> {
+    require_one_a_joint(&initial.joint_angles_deg, limits, place)?;
+    let checked = initial.joint_angles_deg.iter().zip(limits).enumerate();
+    checked
+        .map(|(index, (&angle_deg, limits))| {
+            let place = place.index(index);
+            let angle_rad = place.within(angle_deg, JOINT_ANGLE_DEG)?.to_radians();
+            if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
+                let low = Number(degrees(limits.angle_min_rad));
+                let high = Number(degrees(limits.angle_max_rad));
+                let allowed = format!("{low} to {high}, the limits of joint {}", index + 1);
+                return Err(place.refuse(Number(angle_deg), allowed));
+            }
+            Ok(angle_rad)
+        })
+        .collect()
+}
+
+fn joint_rates(
+    initial: &file::Initial,
+    limits: &[JointLimits],
+    place: &Place,
+) -> Result<Vec<f64>, Error> {
+    let Some(rates_deg_s) = &initial.joint_rates_deg_s else {
+        return Ok(vec![0.0; limits.len()]);
+    };
+    require_one_a_joint(rates_deg_s, limits, place)?;
+    let checked = rates_deg_s.iter().zip(limits).enumerate();
+    checked
+        .map(|(index, (&rate_deg_s, limits))| {
+            let rate_rad_s = rate_deg_s.to_radians();
+            if !(rate_rad_s.abs() <= limits.rate_max_rad_s) {
+                let allowed = format!(
+                    "at most {} in magnitude, the limit of joint {}",
+                    Number(degrees(limits.rate_max_rad_s)),
+                    index + 1
+                );
+                return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
+            }
+            Ok(rate_rad_s)
+        })
+        .collect()
+}
+
+fn require_one_a_joint(values: &[f64], limits: &[JointLimits], place: &Place) -> Result<(), Error> {
+    if values.len() == limits.len() {
+        return Ok(());
+    }
+    let allowed = format!("an array of {}, one a joint", limits.len());
+    Err(place.refuse(format!("an array of {}", values.len()), allowed))
+}
+
+/// Degrees as they stood in the file: without the last digits that the way to radians and back adds.
+fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e9).round() / 1e9
+}

@@ -1,0 +1,81 @@
+//! JSON files read so that every complaint names the field by its path.
+//!
+//! Text becomes a tree in which no key appears twice ([`unique`]), and the tree becomes typed values
+//! through a reader whose error is a [`FieldError`] ([`decode`]). What the types cannot say is then
+//! checked value by value through a [`Place`].
+
+mod decode;
+mod place;
+mod unique;
+
+pub(crate) use place::{Bounds, Number, Place};
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::error::{Error, FieldError, FieldProblem};
+use crate::files;
+use unique::{SyntaxError, SyntaxProblem};
+
+/// A JSON file: no key twice in any object.
+#[derive(Debug)]
+pub(crate) struct Document {
+    file: PathBuf,
+    root: Value,
+}
+
+impl Document {
+    /// Reads a file; `needed` says what it should be, for the message about a directory.
+    pub(crate) fn read(file: &Path, needed: &'static str) -> Result<Self, Error> {
+        Self::parse(file, &files::read(file, needed, files::JSON_LIMIT_BYTES)?)
+    }
+
+    /// Parses the text of a file.
+    pub(crate) fn parse(file: &Path, text: &str) -> Result<Self, Error> {
+        let file = file.to_owned();
+        match unique::parse(text) {
+            Ok(root) => Ok(Self { file, root }),
+            Err(SyntaxError { path, problem: SyntaxProblem::Duplicate }) => {
+                let field = FieldError { path, problem: FieldProblem::Duplicate };
+                Err(Error::Field { file, field: Box::new(field) })
+            }
+            Err(SyntaxError { path, problem: SyntaxProblem::NotJson { line, column, reason } }) => {
+                Err(Error::NotJson { file, path, line, column, reason })
+            }
+        }
+    }
+
+    /// Reads the tree as a typed value.
+    pub(crate) fn decode<'a, T: Deserialize<'a>>(&'a self) -> Result<T, Error> {
+        decode::decode(&self.root).map_err(|field| self.refuse(field))
+    }
+
+    fn refuse(&self, field: FieldError) -> Error {
+        Error::Field { file: self.file.clone(), field: Box::new(field) }
+    }
+}
+
+/// A value as JSON, shortened to fit in a line.
+fn shown(value: &Value) -> String {
+    const LONGEST: usize = 60;
+    let text = value.to_string();
+    if text.chars().count() <= LONGEST {
+        text
+    } else {
+        text.chars().take(LONGEST).chain(['…']).collect()
+    }
+}
+
+/// The candidate nearest to `name`, if any is near enough to be what was meant.
+fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let name = name.to_lowercase();
+    let likeness = |candidate: &&str| {
+        let prefixed = name.len() >= 3 && candidate.starts_with(&name);
+        let similar = strsim::normalized_damerau_levenshtein(&name, candidate);
+        if prefixed { similar.max(0.9) } else { similar }
+    };
+    let best = candidates.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(best) >= 0.5).then_some(*best)
+}
