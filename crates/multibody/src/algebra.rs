@@ -118,13 +118,4 @@ impl<T: Scalar> PlaneRotation<T> {
         let Self { sin, cos } = *self;
         Vector3::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin, v.z)
     }
-
-    /// Rz c.
-    pub fn turn_constant(&self, c: &Vector3<f64>) -> Vector3<T> {
-        Vector3::new(
-            combination([(c.x, self.cos), (-c.y, self.sin)]),
-            combination([(c.x, self.sin), (c.y, self.cos)]),
-            T::from(c.z),
-        )
-    }
 }

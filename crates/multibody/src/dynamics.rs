@@ -9,7 +9,7 @@
 //! ```
 //!
 //! N, the moment about the system's centre of mass, is dH/dt + ω × H of DESIGN's equations without
-//! its ω̇. Forces obey the recursion of [`Coupling`](crate::chain::Coupling) as momenta do:
+//! its ω̇. Forces obey the recursion of [`Coupling`](crate::coupling::Coupling) as momenta do:
 //!
 //! ```text
 //! f' = f + g̈,         N' = N + b × f + F × b̈ + (C's own moment)
@@ -17,12 +17,13 @@
 
 use crate::algebra::{
     PlaneRotation, combination, constant_matrix_product, constant_rotation, cross, offset_by,
-    plus_multiple, scaled, sum, zero,
+    plus_multiple, sum, zero,
 };
-use crate::chain::{Chain, Coupling};
+use crate::chain::Chain;
+use crate::composite::SweepAxes;
+use crate::coupling::Coupling;
 use crate::inertia::inertia;
-use crate::kinematics::group_rotations;
-use crate::momentum::{Moments, Pair, TurnedArm};
+use crate::sweep::{Moments, Pair, SweepRotations, TurnedCoupling};
 use crate::system::System;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
@@ -133,15 +134,14 @@ impl<T: Scalar> Beyond<T> {
         spin: &Spin<T>,
         rotation: &PlaneRotation<T>,
     ) -> Self {
-        let turned = TurnedArm::new(coupling, rotation);
-        let along = coupling.arm.z;
-        let arm = spin.acceleration_of_turned(&turned.arm, along);
+        let turned = TurnedCoupling::new(coupling, rotation);
+        let arm = spin.acceleration_of_turned(&turned.arm, turned.along);
         let first = match coupling.first_over_arm {
             Some(ratio) => arm.map(|entry| entry * ratio),
             None => spin.acceleration_of_turned(&turned.first, coupling.first.z),
         };
         let doubled = rotation.turn_constant(&(coupling.half * 2.0));
-        let mut load = self.load.shifted_turned(&turned.arm, along);
+        let mut load = self.load.shifted_turned(&turned);
         load.angular = sum(&load.angular, &cross(&sum(&self.moments.first, &doubled), &arm));
         if let Some(rest) = &coupling.rest {
             let own = spin.turned_back(rotation).moment_of(&inertia(rest));
@@ -152,7 +152,7 @@ impl<T: Scalar> Beyond<T> {
     }
 }
 
-/// Spins of every joint's frame: in the axes in which its group turns, and, for the last joint of a
+/// Spins of a joint's frame: in the axes in which its group turns, and, for the last joint of a
 /// group, in the axes of K too.
 struct Spins<T> {
     in_group: Spin<T>,
@@ -206,8 +206,10 @@ impl System {
         self.assert_joint_slice(qdot);
         self.assert_joint_slice(qddot);
         let chain = &self.chain;
-        let rotations = group_rotations(chain, q);
-        let spins = outward(chain, &rotations, omega, qdot, qddot);
+        let SweepRotations { joints: rotations, last } = SweepRotations::new(chain, q);
+        let axes = SweepAxes::new(chain, last);
+        let omega = axes.to_sweep(omega);
+        let spins = outward(chain, &rotations, &omega, qdot, qddot);
         let mut beyond = Beyond { moments: Moments::zero(), load: Pair::zero() };
         for (k, joint) in chain.joints.iter().enumerate().rev() {
             let (coupling, rotation) = (&joint.coupling, &rotations[k]);
@@ -225,27 +227,21 @@ impl System {
         }
 
         let Beyond { moments, load } = beyond;
-        let rotation = &chain.root_rotation;
-        let steady = Spin { rate: *omega, acceleration: zero() };
-        let across = &chain.root.across;
-        let mut load = load.shifted(across);
-        if across.amax() > 0.0 {
-            let swing = steady.rotated_back(rotation).acceleration_of(across);
+        let root = &chain.root;
+        let steady = Spin { rate: omega, acceleration: zero() };
+        let mut load = load.shifted(&root.across);
+        if root.across.amax() > 0.0 {
+            let swing = steady.acceleration_of(&root.across);
             load.angular = sum(&load.angular, &cross(&moments.first, &swing));
         }
-        let second = moments.second.plus_product_constant(&moments.first, across);
-        let second = second.rotated(rotation).plus_constant(&chain.root.second);
-        let own = cross(omega, &constant_matrix_product(&inertia(&chain.root.second), omega));
-        let moment = sum(&constant_rotation(rotation, &load.angular), &own);
-        let angular = second.inertia().solve(&moment.map(|entry| -entry));
+        let own = cross(&omega, &constant_matrix_product(&inertia(&root.second), &omega));
+        let moment = sum(&load.angular, &own);
+        let angular = moments.with_base(chain).inertia().solve(&moment.map(|entry| -entry));
 
-        let first = offset_by(&constant_rotation(rotation, &moments.first), &chain.root.first);
-        let force = sum(
-            &constant_rotation(rotation, &load.linear),
-            &steady.acceleration_of(&chain.root.first),
-        );
-        let force = sum(&force, &cross(&angular, &first));
-        let linear = scaled(&force, T::from(-self.total_mass().recip()));
-        BaseAcceleration { angular, linear }
+        let first = offset_by(&moments.first, &root.first);
+        let steady_force = sum(&load.linear, &steady.acceleration_of(&root.first));
+        let force = sum(&steady_force, &cross(&angular, &first));
+        let linear = force.map(|entry| entry * -self.total_mass().recip());
+        BaseAcceleration { angular: axes.to_body(&angular), linear: axes.to_body(&linear) }
     }
 }

@@ -115,3 +115,9 @@ pub(crate) fn second_moment(inertia: &Matrix3<f64>) -> Matrix3<f64> {
 pub(crate) fn inertia(second_moment: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(second_moment.trace()) - second_moment
 }
+
+/// m/12 (‖s‖² 1 − s sᵀ), about the centre of a slender rod.
+pub(crate) fn rod_inertia(mass: f64, segment: &Vector3<f64>) -> Matrix3<f64> {
+    (Matrix3::from_diagonal_element(segment.norm_squared()) - segment * segment.transpose())
+        * (mass / 12.0)
+}

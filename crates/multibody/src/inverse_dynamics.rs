@@ -9,8 +9,8 @@ use crate::algebra::{
 };
 use crate::dynamics::{BaseAcceleration, Spin};
 use crate::inertia::{MassMoments, inertia};
-use crate::momentum::Pair;
 use crate::state::State;
+use crate::sweep::Pair;
 use crate::system::System;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;

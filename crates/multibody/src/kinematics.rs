@@ -1,11 +1,13 @@
 //! Where everything is, in body axes.
 
 use crate::algebra::{
-    PlaneRotation, combination, constant, difference, plus, plus_multiple, scaled, sum, zero,
+    PlaneRotation, combination, constant, difference, plus_multiple, scaled, sum, zero,
 };
-use crate::chain::{Chain, Joint, LinkCenter, Turn};
+use crate::chain::{Chain, Joint, LinkCenter};
 use crate::distance::Segment;
+use crate::sweep::group_rotations;
 use crate::system::{DhConvention, System};
+use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
@@ -66,39 +68,6 @@ pub struct Kinematics<T> {
     pub segments: Vec<Segment<T>>,
     /// Centre of mass of each link, m.
     pub centers_of_mass: Vec<Vector3<T>>,
-}
-
-/// Sine and cosine of each joint's angle, summed over the joints from the first of its group of
-/// neighbours with parallel axes: one rotation then takes a vector through the whole group.
-pub(crate) fn group_rotations<T: Scalar>(chain: &Chain, q: &[T]) -> Vec<PlaneRotation<T>> {
-    let mut rotations = Vec::with_capacity(q.len());
-    let mut angle = T::from(0.0);
-    let mut start = Turn::NONE;
-    for (k, joint) in chain.joints.iter().enumerate() {
-        if chain.continues_group(k) {
-            angle += q[k];
-            start = start.plus(joint.angle);
-        } else {
-            angle = q[k];
-            start = joint.angle;
-        }
-        rotations.push(PlaneRotation::of(angle, start));
-    }
-    rotations
-}
-
-impl<T: Scalar> PlaneRotation<T> {
-    /// Of a joint's angle counted from a constant one.
-    pub(crate) fn of(angle: T, start: Turn) -> Self {
-        let angle = plus(angle, start.rest_rad);
-        let (sin, cos) = angle.sin_cos();
-        match start.quarters {
-            0 => Self { sin, cos },
-            1 => Self { sin: cos, cos: -sin },
-            2 => Self { sin: -sin, cos: -cos },
-            _ => Self { sin: -cos, cos: sin },
-        }
-    }
 }
 
 impl System {

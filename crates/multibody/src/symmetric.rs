@@ -159,19 +159,20 @@ impl<T: Scalar> Symmetric<T> {
         )
     }
 
-    /// S⁻¹ v by the adjugate. S must be regular.
+    /// S⁻¹ v by the factors L D Lᵀ of a positive definite S: fewer operations than the adjugate.
     pub fn solve(&self, v: &Vector3<T>) -> Vector3<T> {
-        let Self { xx, xy, xz, yy, yz, zz } = *self;
-        let adjugate = Self {
-            xx: yy * zz - yz * yz,
-            xy: xz * yz - xy * zz,
-            xz: xy * yz - xz * yy,
-            yy: xx * zz - xz * xz,
-            yz: xy * xz - xx * yz,
-            zz: xx * yy - xy * xy,
-        };
-        let inverse = (xx * adjugate.xx + xy * adjugate.xy + xz * adjugate.xz).recip();
-        adjugate.times(v).map(|entry| entry * inverse)
+        let inverse_x = self.xx.recip();
+        let (l_yx, l_zx) = (self.xy * inverse_x, self.xz * inverse_x);
+        let inverse_y = (self.yy - l_yx * self.xy).recip();
+        let below = self.yz - l_yx * self.xz;
+        let l_zy = below * inverse_y;
+        let inverse_z = (self.zz - l_zx * self.xz - l_zy * below).recip();
+
+        let y = v.y - l_yx * v.x;
+        let z = (v.z - l_zx * v.x - l_zy * y) * inverse_z;
+        let y = y * inverse_y - l_zy * z;
+        let x = v.x * inverse_x - l_yx * y - l_zx * z;
+        Vector3::new(x, y, z)
     }
 
     pub fn to_matrix(self) -> Matrix3<T> {
