@@ -72,7 +72,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
 
         let mut point = Point::of(self.start, &declarations);
         let trap = Trap::default();
-        let (outcome, timing) = {
+        let (status, report, last_iteration, timing) = {
             // Outlives the handle: freeing it frees what MUMPS holds.
             let _mumps = engine.lock();
             let clock = Instant::now();
@@ -107,11 +107,10 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
                 evaluation: session.timing,
                 linear_solver: report.as_ref().map(|report| report.timing),
             };
-            ((status, report.unwrap_or_default(), session.last_iteration), timing)
+            (status, report.unwrap_or_default(), session.last_iteration, timing)
         };
         trap.release();
 
-        let (status, report, last_iteration) = outcome;
         let status = judge(status, report)?;
         if !status.brings_functions() {
             point.evaluate(self.problem);
