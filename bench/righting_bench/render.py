@@ -179,9 +179,9 @@ def _derivative_table(kept: Measurements) -> str:
         return ""
     header = ["maneuver", "form", *DERIVATIVES.values(), "ours, all evaluation"]
     note = (
-        "Processor milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, on one "
-        "core. Ours is `timing_s` evaluate over iterations, so it holds every function "
-        "evaluation of an iteration."
+        "Processor milliseconds for the constraint Jacobian and the Lagrangian Hessian of all stages, once, "
+        "on one core. Ours is `timing_s` evaluate over iterations, so it holds every function evaluation "
+        "of an iteration."
     )
     return f"## Derivatives of one iteration\n\n{note}\n\n{_table(header, rows)}"
 
