@@ -281,7 +281,8 @@ def _table(header: list[str], rows: list[list[str]]) -> str:
 
 
 def _ratio(ours: dict | None, theirs: dict | None) -> float | None:
-    if not ours or not theirs or not theirs["success"] or not ours["plan_s"]:
+    """How many times longer CasADi takes; none when either side has no sound plan to show."""
+    if not ours or not theirs or not theirs["success"] or not ours["verified"]:
         return None
     return theirs["solve_s"] / ours["plan_s"]
 
