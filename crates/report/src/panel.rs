@@ -72,10 +72,18 @@ impl Panel {
         // The nearest limit first: of a pair too far apart to show, the one that matters stays.
         let distance = |v: f64| (curves.low - v).max(v - curves.high);
         limits.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        let shown = limits.into_iter().fold(curves, |range, limit| {
+        let include = |range: Range, limit: f64| {
             let wider = range.including(limit);
             if wider.span() <= largest { wider } else { range }
-        });
+        };
+        let shown = match limits.as_slice() {
+            // A limit either way is one limit: half of it would make the panel lopsided.
+            &[a, b] if a == -b => {
+                let both = curves.including(a).including(b);
+                if both.span() <= largest { both } else { curves }
+            }
+            limits => limits.iter().copied().fold(curves, include),
+        };
         let shown = shown.padded(self.least_span);
         let strip = |off_scale: bool| if off_scale { OFF_SCALE_STRIP } else { 0.0 };
         let is_off_scale = |beyond: &dyn Fn(f64) -> bool| {
@@ -268,6 +276,8 @@ mod tests {
         assert!(range.contains(17.2) && range.contains(-17.2));
         let range = panel(vec![-0.3, 0.3], &[-17.2, 17.2]).range(100.0);
         assert!(!range.contains(17.2) && !range.contains(-17.2));
+        let range = panel(vec![-1.0, 1.5], &[-11.5, 11.5]).range(100.0);
+        assert!(!range.contains(11.5) && !range.contains(-11.5));
         let range = panel(vec![40.0, 50.0], &[45.0, f64::INFINITY]).range(100.0);
         assert!(range.span() < 20.0);
     }

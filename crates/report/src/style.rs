@@ -39,7 +39,7 @@ pub const LABEL_SIZE: f64 = 12.0;
 /// Tick labels, legends, notes.
 pub const SMALL_SIZE: f64 = 10.5;
 /// Mean advance of a character over the font size, for laying out legends without font metrics.
-pub const CHARACTER_ADVANCE: f64 = 0.56;
+pub const CHARACTER_ADVANCE: f64 = 0.62;
 
 /// Curves.
 pub const CURVE_WIDTH: f64 = 1.6;
