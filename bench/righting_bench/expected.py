@@ -18,8 +18,10 @@ FIELDS = (
 
 
 def write_expected(kept: Measurements, path: Path) -> None:
-    """Write the objectives of every converged Ipopt solve, uncompiled ones first, by scenario and form."""
+    """Update the objectives by every converged Ipopt solve kept, those with nlpsol's derivatives first."""
     table: dict[str, dict[str, dict]] = {}
+    if path.exists():
+        table = json.loads(path.read_text())["objectives"]
     for key, value in sorted(kept.values.items()):
         kind, name, form, *how = key.split("/")
         if kind != "casadi" or not value["success"] or how[0] != "ipopt":
@@ -36,6 +38,6 @@ def write_expected(kept: Measurements, path: Path) -> None:
         "squared distances to every link not exempt and to every pair of links that share no joint",
         "form": "full: 13 + 2j states; reduced: 4 + 2j states, momentum eliminated",
         "made_by": "python -m righting_bench expected",
-        "objectives": table,
+        "objectives": {name: table[name] for name in sorted(table)},
     }
     path.write_text(json.dumps(page, indent=1) + "\n")
