@@ -119,8 +119,9 @@ impl RootCoupling {
         let second = without_rounding(&(back * base.second * root_rotation));
         let diagonal = second == Matrix3::from_diagonal(&second.diagonal());
         let round = (second.m11 - second.m22).abs() <= ROUNDING * second.amax();
-        let symmetric = diagonal && round && across.amax() == 0.0;
-        let root = Self { first: back * base.first, second, across, symmetric };
+        let first = back * base.first;
+        let on_axis = across.amax() == 0.0 && first.x == 0.0 && first.y == 0.0;
+        let root = Self { first, second, across, symmetric: diagonal && round && on_axis };
         (root, Vector3::new(0.0, 0.0, arm.z))
     }
 

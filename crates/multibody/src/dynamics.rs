@@ -166,7 +166,7 @@ fn outward<T: Scalar>(
     qdot: &[T],
     qddot: &[T],
 ) -> Vec<Spins<T>> {
-    let mut group = Spin { rate: *omega, acceleration: zero() }.rotated_back(&chain.root_rotation);
+    let mut group = Spin { rate: *omega, acceleration: zero() };
     let (mut rate, mut acceleration) = (T::from(0.0), T::from(0.0));
     let mut spins = Vec::with_capacity(chain.joints.len());
     for (k, joint) in chain.joints.iter().enumerate() {

@@ -1,69 +1,18 @@
-//! The systems of the paper's Table I, and random ones.
+//! Systems to test with, and the equations as they are defined.
 #![allow(dead_code)]
 
-use nalgebra::Vector3;
-use righting_multibody::{Base, DhConvention, Link, Mount, System};
+pub mod definition;
+pub mod random;
+mod table_one;
 
-/// A row of Table I: mass, a, α in degrees, d, θ in degrees.
-type Row = (f64, f64, f64, f64, f64);
+pub use table_one::{canadarm2, canadarm2_table, single_link_2dof, table_one, xlink_4dof};
 
-fn system(mass_kg: f64, side_m: f64, convention: DhConvention, rows: &[Row]) -> System {
-    let link = |&(mass_kg, a_m, alpha_deg, d_m, theta_deg): &Row| {
-        Link::rod(mass_kg, a_m, f64::to_radians(alpha_deg), d_m, f64::to_radians(theta_deg))
-    };
-    System::new(
-        Base::uniform_cube(mass_kg, side_m).unwrap(),
-        Mount::at(Vector3::new(0.0, 0.0, side_m / 2.0)),
-        convention,
-        rows.iter().map(link).collect(),
-        None,
-    )
-    .unwrap()
-}
-
-/// (a).
-pub fn single_link_2dof() -> System {
-    let rows = [(0.0, 0.0, -90.0, 0.0, 0.0), (25.0, 1.0, 0.0, 0.0, -90.0)];
-    system(300.0, 0.5, DhConvention::Standard, &rows)
-}
-
-/// (b).
-pub fn xlink_4dof() -> System {
-    let rows = [
-        (7.0, 0.0, 90.0, 0.25, -180.0),
-        (6.0, 0.25, 0.0, 0.0, 90.0),
-        (6.0, 0.25, 0.0, 0.0, 0.0),
-        (6.0, 0.25, 0.0, 0.0, 0.0),
-    ];
-    system(300.0, 0.5, DhConvention::Standard, &rows)
-}
-
-const CANADARM2: [Row; 7] = [
-    (0.0, 0.0, 0.0, 0.0, 0.0),
-    (60.0, 0.0, 90.0, 0.635, 0.0),
-    (70.0, 0.0, -90.0, 0.756, 0.0),
-    (620.0, 6.85, 0.0, 0.0, 0.0),
-    (620.0, 6.85, 0.0, 0.756, 0.0),
-    (70.0, 0.0, 90.0, 0.635, 0.0),
-    (60.0, 0.0, -90.0, 0.0, 0.0),
-];
-
-/// (c) read as standard rows, as the table's head says.
-pub fn canadarm2_table() -> System {
-    system(400_000.0, 2.0, DhConvention::Standard, &CANADARM2)
-}
-
-/// (c) read as Craig's rows, which the real arm has.
-pub fn canadarm2() -> System {
-    system(400_000.0, 2.0, DhConvention::Modified, &CANADARM2)
-}
-
-/// All four with their names.
-pub fn table_one() -> [(&'static str, System); 4] {
-    [
-        ("single_link_2dof", single_link_2dof()),
-        ("xlink_4dof", xlink_4dof()),
-        ("canadarm2_table", canadarm2_table()),
-        ("canadarm2", canadarm2()),
-    ]
+/// Asserts that two vectors agree, relative to `scale` or the larger norm.
+#[track_caller]
+pub fn assert_near(ours: &[f64], theirs: &[f64], tolerance: f64, scale: f64) {
+    assert_eq!(ours.len(), theirs.len());
+    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let gap: Vec<f64> = ours.iter().zip(theirs).map(|(a, b)| a - b).collect();
+    let size = scale.max(norm(ours)).max(norm(theirs));
+    assert!(norm(&gap) <= tolerance * size, "{ours:?} against {theirs:?}, scale {size:e}");
 }

@@ -1,0 +1,117 @@
+//! Random systems and states for property tests.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use righting_multibody::{Base, DhConvention, Link, Mount, Payload, Quaternion, State, System};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    [-size..size, -size..size, -size..size].prop_map(Vector3::from)
+}
+
+fn rotation() -> impl Strategy<Value = Rotation3<f64>> {
+    vector(PI).prop_map(Rotation3::new)
+}
+
+/// The inertia of three point pairs on rotated axes: positive definite, triangle inequality kept.
+fn inertia(size: f64) -> impl Strategy<Value = Matrix3<f64>> {
+    ([0.05..1.0, 0.05..1.0, 0.05..1.0], rotation()).prop_map(move |(second, rotation)| {
+        let [x, y, z]: [f64; 3] = second;
+        let moments = Vector3::new(y + z, x + z, x + y) * size;
+        let turned = rotation.matrix() * Matrix3::from_diagonal(&moments);
+        let matrix = turned * rotation.matrix().transpose();
+        (matrix + matrix.transpose()) * 0.5
+    })
+}
+
+/// Any angle, with right angles common as on real arms.
+fn angle() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        2 => Just(0.0),
+        3 => (-2..=2_i32).prop_map(|n| f64::from(n) * FRAC_PI_2),
+        2 => -PI..PI,
+    ]
+}
+
+fn length() -> impl Strategy<Value = f64> {
+    prop_oneof![1 => Just(0.0), 2 => -1.0..1.0_f64]
+}
+
+fn link() -> impl Strategy<Value = Link> {
+    let mass = prop_oneof![1 => Just(0.0), 4 => 0.1..8.0_f64];
+    let shape = prop_oneof![
+        3 => Just((None, None)),
+        1 => vector(0.4).prop_map(|center| (Some(center), None)),
+        1 => inertia(0.5).prop_map(|matrix| (None, Some(matrix))),
+        1 => (vector(0.4), inertia(0.5)).prop_map(|(center, matrix)| (Some(center), Some(matrix))),
+    ];
+    (mass, length(), angle(), length(), angle(), shape).prop_map(
+        |(mass_kg, a_m, alpha_rad, d_m, theta_rad, (center_of_mass_m, inertia_kg_m2))| Link {
+            center_of_mass_m,
+            inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
+            ..Link::rod(mass_kg, a_m, alpha_rad, d_m, theta_rad)
+        },
+    )
+}
+
+fn base() -> impl Strategy<Value = Base> {
+    let cube = (0.4..1.0_f64).prop_map(|side| Base::uniform_cube(20.0, side).unwrap());
+    let any = inertia(10.0).prop_map(|inertia_kg_m2| Base { mass_kg: 20.0, inertia_kg_m2 });
+    prop_oneof![cube, any]
+}
+
+fn mount() -> impl Strategy<Value = Mount> {
+    let on_top = (0.0..0.5_f64).prop_map(|z| Mount::at(Vector3::new(0.0, 0.0, z)));
+    let upside_down = Just(Mount {
+        position_m: Vector3::new(0.0, -0.3, 0.0),
+        rotation: Rotation3::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2),
+    });
+    let any =
+        (vector(0.5), rotation()).prop_map(|(position_m, rotation)| Mount { position_m, rotation });
+    prop_oneof![2 => on_top, 1 => upside_down, 2 => any]
+}
+
+fn payload() -> impl Strategy<Value = Option<Payload>> {
+    let held = (0.1..10.0_f64, proptest::option::of(inertia(1.0)))
+        .prop_map(|(mass_kg, inertia_kg_m2)| Payload { mass_kg, inertia_kg_m2 });
+    proptest::option::of(held)
+}
+
+/// Any system of one to six joints.
+pub fn system() -> impl Strategy<Value = System> {
+    let convention = prop_oneof![Just(DhConvention::Standard), Just(DhConvention::Modified)];
+    (base(), mount(), convention, vec(link(), 1..=6), payload()).prop_map(
+        |(base, mount, convention, links, payload)| {
+            System::new(base, mount, convention, links, payload).unwrap()
+        },
+    )
+}
+
+/// A system in motion: state and joint accelerations.
+pub fn motion() -> impl Strategy<Value = (System, State<f64>, Vec<f64>)> {
+    system().prop_flat_map(|system| {
+        let j = system.joint_count();
+        let joints = (vec(-PI..PI, j), vec(-2.0..2.0_f64, j), vec(-2.0..2.0_f64, j));
+        (Just(system), vector(2.0), attitude(), vector(1.0), vector(1.0), joints).prop_map(
+            |(system, position, attitude, velocity, angular_rate, (angles, rates, u))| {
+                let state = State {
+                    position,
+                    attitude,
+                    velocity,
+                    angular_rate,
+                    joint_angles: angles,
+                    joint_rates: rates,
+                };
+                (system, state, u)
+            },
+        )
+    })
+}
+
+pub fn attitude() -> impl Strategy<Value = Quaternion<f64>> {
+    (vector(1.0), -PI..PI).prop_filter_map("an axis", |(axis, angle)| {
+        let axis = axis.try_normalize(1e-3)?;
+        Some(Quaternion::from_axis_angle(&axis, angle))
+    })
+}
