@@ -1,0 +1,130 @@
+//! The solver as Ipopt sees it.
+
+use righting_ipopt::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
+
+use super::dims::{Layout, StageDims};
+use super::elimination::Breakdown;
+use super::factor::{Factor, Workspace};
+use super::lanes::Lanes;
+use super::node::NodeFactor;
+use super::solve::{Solve, SolveWorkspace};
+use super::structure::{KktStructureError, Structure};
+
+/// Pivots smaller than this beside the rest of their row are avoided, at first.
+const PIVOT_TOLERANCE: f64 = 1e-8;
+/// The strictest tolerance.
+const STRICTEST_PIVOT_TOLERANCE: f64 = 1e-2;
+
+/// Stage-structured LDLᵀ of an augmented system: see the [module](super).
+#[derive(Debug)]
+pub struct StageKkt {
+    layout: Layout,
+    lanes: Lanes,
+    structure: Option<Structure>,
+    nodes: Vec<NodeFactor>,
+    work: Workspace,
+    solve_work: SolveWorkspace,
+    pivot_tolerance: f64,
+}
+
+impl StageKkt {
+    /// A solver for problems of these sizes, with the widest SIMD lanes of this processor.
+    pub fn new(dims: &StageDims) -> Self {
+        Self::with_lanes(dims, Lanes::native())
+    }
+
+    /// The same without SIMD: what the lanes are tested against.
+    pub fn scalar(dims: &StageDims) -> Self {
+        Self::with_lanes(dims, Lanes::Scalar)
+    }
+
+    fn with_lanes(dims: &StageDims, lanes: Lanes) -> Self {
+        Self {
+            layout: Layout::new(dims),
+            lanes,
+            structure: None,
+            nodes: Vec::new(),
+            work: Workspace::default(),
+            solve_work: SolveWorkspace::default(),
+            pivot_tolerance: PIVOT_TOLERANCE,
+        }
+    }
+
+    /// Unknowns of the augmented system.
+    pub fn order(&self) -> usize {
+        self.layout.order
+    }
+
+    /// Recognises the stage structure in the triplets: the fallible part of
+    /// [`LinearSolver::analyse`], with its own error.
+    ///
+    /// # Errors
+    /// When the matrix does not have the structure; then another solver has to be used.
+    pub fn recognise(
+        &mut self,
+        order: usize,
+        rows: &[i32],
+        columns: &[i32],
+    ) -> Result<(), KktStructureError> {
+        self.structure = None;
+        let structure = Structure::analyse(&self.layout, order, rows, columns, self.lanes.width())?;
+        self.nodes =
+            (0..self.layout.nodes.len()).map(|k| NodeFactor::new(structure.pattern(k))).collect();
+        self.structure = Some(structure);
+        Ok(())
+    }
+}
+
+impl LinearSolver for StageKkt {
+    /// Finds where each triplet belongs; entries may lie in either triangle.
+    fn analyse(
+        &mut self,
+        order: usize,
+        rows: &[i32],
+        columns: &[i32],
+    ) -> Result<(), LinearSolverError> {
+        self.recognise(order, rows, columns).map_err(LinearSolverError::new)
+    }
+
+    /// Factorises; fails before a successful analysis and when the number of values differs.
+    fn factor(&mut self, values: &[f64]) -> Factorization {
+        let Some(structure) = self.structure.as_ref().filter(|s| s.triplets == values.len()) else {
+            return Factorization::Failed;
+        };
+        let outcome = self.lanes.run(Factor {
+            layout: &self.layout,
+            structure,
+            nodes: &mut self.nodes,
+            work: &mut self.work,
+            values,
+            tolerance: self.pivot_tolerance,
+        });
+        match outcome {
+            Ok(negative_eigenvalues) => Factorization::Regular { negative_eigenvalues },
+            Err(Breakdown::Singular) => Factorization::Singular,
+            Err(Breakdown::Failed) => Factorization::Failed,
+        }
+    }
+
+    /// Solves with the last factorisation, which must have been regular.
+    fn solve(&mut self, right_hand_sides: &mut [f64]) {
+        let Some(structure) = &self.structure else { return };
+        for rhs in right_hand_sides.chunks_exact_mut(self.layout.order.max(1)) {
+            self.lanes.run(Solve {
+                layout: &self.layout,
+                structure,
+                nodes: &self.nodes,
+                work: &mut self.solve_work,
+                rhs,
+            });
+        }
+    }
+
+    fn pivot_tolerances(&self) -> Option<PivotTolerances> {
+        Some(PivotTolerances { initial: PIVOT_TOLERANCE, largest: STRICTEST_PIVOT_TOLERANCE })
+    }
+
+    fn set_pivot_tolerance(&mut self, tolerance: f64) {
+        self.pivot_tolerance = tolerance;
+    }
+}

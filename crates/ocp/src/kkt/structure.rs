@@ -1,0 +1,239 @@
+//! Recognises the stage structure in the triplets of an augmented system.
+
+use std::collections::HashMap;
+
+use super::dims::{Layout, Role};
+use super::pattern::{MissingCoupling, NodePattern, NodeShape, Place};
+
+/// Why a matrix is not the augmented system of the stage problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum KktStructureError {
+    /// The order differs from what the dimensions give.
+    #[error("the matrix has order {found}, the stage dimensions give {expected}")]
+    Order {
+        /// Order that the dimensions give.
+        expected: usize,
+        /// Order of the matrix.
+        found: usize,
+    },
+    /// Row and column lists differ in length.
+    #[error("{rows} row indices but {columns} column indices")]
+    TripletLengths {
+        /// Number of row indices.
+        rows: usize,
+        /// Number of column indices.
+        columns: usize,
+    },
+    /// An entry where the stage structure has none, or an index out of range.
+    #[error("entry ({row}, {column}) does not belong to the stage structure")]
+    ForeignEntry {
+        /// Row index, from 0.
+        row: i32,
+        /// Column index, from 0.
+        column: i32,
+    },
+    /// A defect row does not contain the state that it determines.
+    #[error("defect row {row} of step {step} lacks the state that it determines")]
+    DefectWithoutState {
+        /// Step of the defect.
+        step: usize,
+        /// Row within the defect.
+        row: usize,
+    },
+    /// An inequality row does not contain its slack.
+    #[error("inequality {row} of node {node} lacks its slack")]
+    InequalityWithoutSlack {
+        /// Node of the inequality.
+        node: usize,
+        /// Row within the node's inequalities.
+        row: usize,
+    },
+    /// A node is too large for 16-bit indices.
+    #[error("node {node} has too many unknowns")]
+    NodeTooLarge {
+        /// The node.
+        node: usize,
+    },
+}
+
+/// Where each node's values come from and go to.
+#[derive(Debug)]
+pub(super) struct Structure {
+    pub patterns: Vec<NodePattern>,
+    pub nodes: Vec<NodeSource>,
+    /// Triplet positions, node after node, in the order of the patterns' destinations.
+    pub sources: Vec<u32>,
+    /// Triplets of the matrix.
+    pub triplets: usize,
+}
+
+/// One node's pattern and its part of the sources.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NodeSource {
+    pub pattern: usize,
+    pub start: usize,
+    pub end: usize,
+}
+
+impl Structure {
+    pub fn analyse(
+        layout: &Layout,
+        order: usize,
+        rows: &[i32],
+        columns: &[i32],
+        lanes: usize,
+    ) -> Result<Self, KktStructureError> {
+        if order != layout.order {
+            return Err(KktStructureError::Order { expected: layout.order, found: order });
+        }
+        if rows.len() != columns.len() {
+            let (rows, columns) = (rows.len(), columns.len());
+            return Err(KktStructureError::TripletLengths { rows, columns });
+        }
+        let shapes = node_shapes(layout)?;
+
+        let roles = layout.roles();
+        let role_at = |index: i32| usize::try_from(index).ok().and_then(|i| roles.get(i).copied());
+        let mut located = Vec::with_capacity(rows.len());
+        let mut starts = vec![0_usize; shapes.len() + 1];
+        for (&row, &column) in rows.iter().zip(columns) {
+            let (node, place) = role_at(row)
+                .zip(role_at(column))
+                .and_then(|(a, b)| locate(&shapes, a, b))
+                .ok_or(KktStructureError::ForeignEntry { row, column })?;
+            starts[node + 1] += 1;
+            located.push((node, place));
+        }
+        for k in 0..shapes.len() {
+            starts[k + 1] += starts[k];
+        }
+        let mut fill = starts.clone();
+        let mut by_node = vec![(Place::DefectCoupling { row: 0 }, 0_u32); rows.len()];
+        for (source, (node, place)) in located.into_iter().enumerate() {
+            by_node[fill[node]] = (place, source as u32);
+            fill[node] += 1;
+        }
+
+        let mut patterns = Vec::new();
+        let mut known: HashMap<(NodeShape, Vec<Place>), usize> = HashMap::new();
+        let mut nodes = Vec::with_capacity(shapes.len());
+        let mut sources = Vec::with_capacity(rows.len());
+        for (k, &shape) in shapes.iter().enumerate() {
+            let (start, end) = (starts[k], starts[k + 1]);
+            let entries = &mut by_node[start..end];
+            entries.sort_unstable();
+            sources.extend(entries.iter().map(|&(_, source)| source));
+            let places: Vec<Place> = entries.iter().map(|&(place, _)| place).collect();
+            let key = (shape, places);
+            let pattern = match known.get(&key) {
+                Some(&pattern) => pattern,
+                None => {
+                    let pattern =
+                        NodePattern::new(shape, &key.1, lanes).map_err(
+                            |missing| match missing {
+                                MissingCoupling::Defect(row) => {
+                                    KktStructureError::DefectWithoutState { step: k, row }
+                                }
+                                MissingCoupling::Slack(row) => {
+                                    KktStructureError::InequalityWithoutSlack { node: k, row }
+                                }
+                            },
+                        )?;
+                    patterns.push(pattern);
+                    known.insert(key, patterns.len() - 1);
+                    patterns.len() - 1
+                }
+            };
+            nodes.push(NodeSource { pattern, start, end });
+        }
+        Ok(Self { patterns, nodes, sources, triplets: rows.len() })
+    }
+
+    pub fn pattern(&self, node: usize) -> &NodePattern {
+        &self.patterns[self.nodes[node].pattern]
+    }
+}
+
+fn node_shapes(layout: &Layout) -> Result<Vec<NodeShape>, KktStructureError> {
+    let shapes = layout.nodes.iter().enumerate().map(|(k, node)| {
+        let dims = node.dims;
+        let (free, states) =
+            if k == 0 { (dims.states + dims.controls, 0) } else { (dims.controls, dims.states) };
+        let shape = NodeShape {
+            free,
+            equalities: dims.equalities,
+            states,
+            defects: node.defects,
+            inequalities: dims.inequalities,
+        };
+        let largest = (shape.leading() + states).max(shape.defects + shape.inequalities);
+        if largest > usize::from(u16::MAX) {
+            return Err(KktStructureError::NodeTooLarge { node: k });
+        }
+        Ok(shape)
+    });
+    shapes.collect()
+}
+
+/// Node and place of the entry between two unknowns, or nothing when the structure has none.
+fn locate(shapes: &[NodeShape], a: (usize, Role), b: (usize, Role)) -> Option<(usize, Place)> {
+    use Role::{Defect, Equality, Inequality, Slack, Variable};
+    let short = |i: usize| i as u16;
+    let ((node, first), (other, second)) = if rank(a.1) <= rank(b.1) { (a, b) } else { (b, a) };
+    if let (Variable(i), Defect(row)) = (first, second)
+        && node == other + 1
+    {
+        return (i == row && i < shapes[node].states)
+            .then_some((other, Place::DefectCoupling { row: short(row) }));
+    }
+    if node != other {
+        return None;
+    }
+    let shape = &shapes[node];
+    // A variable is a state of the trailing block or a leading unknown; constraint columns list
+    // the leading ones first.
+    let state = |i: usize| (i < shape.states).then_some(i);
+    let leading = |i: usize| i - shape.states;
+    let column = |i: usize| match state(i) {
+        Some(i) => short(shape.free + i),
+        None => short(leading(i)),
+    };
+    let multiplier = |row: usize| shape.free + row;
+    let place = match (first, second) {
+        (Variable(i), Variable(j)) => match (state(i), state(j)) {
+            (Some(i), Some(j)) => Place::State { row: short(i.min(j)), column: short(i.max(j)) },
+            (Some(i), None) => Place::Cross { row: short(leading(j)), column: short(i) },
+            (None, Some(j)) => Place::Cross { row: short(leading(i)), column: short(j) },
+            (None, None) => {
+                Place::Leading { row: short(leading(i.min(j))), column: short(leading(i.max(j))) }
+            }
+        },
+        (Variable(i), Equality(row)) => match state(i) {
+            Some(i) => Place::Cross { row: short(multiplier(row)), column: short(i) },
+            None => Place::Leading { row: short(leading(i)), column: short(multiplier(row)) },
+        },
+        (Equality(i), Equality(j)) if i == j => {
+            Place::Leading { row: short(multiplier(i)), column: short(multiplier(i)) }
+        }
+        (Variable(i), Defect(row)) => Place::Constraint { column: column(i), row: short(row) },
+        (Variable(i), Inequality(row)) => {
+            Place::Constraint { column: column(i), row: short(shape.defects + row) }
+        }
+        (Defect(i), Defect(j)) if i == j => Place::DefectDiagonal { row: short(i) },
+        (Slack(i), Slack(j)) if i == j => Place::SlackDiagonal { row: short(i) },
+        (Slack(i), Inequality(j)) if i == j => Place::SlackCoupling { row: short(i) },
+        (Inequality(i), Inequality(j)) if i == j => Place::InequalityDiagonal { row: short(i) },
+        _ => return None,
+    };
+    Some((node, place))
+}
+
+fn rank(role: Role) -> u8 {
+    match role {
+        Role::Variable(_) => 0,
+        Role::Slack(_) => 1,
+        Role::Equality(_) => 2,
+        Role::Defect(_) => 3,
+        Role::Inequality(_) => 4,
+    }
+}
