@@ -16,7 +16,12 @@ pub(crate) struct Halton {
 impl Halton {
     /// Points in as many dimensions as an arm may have joints.
     pub(crate) fn new(dimensions: usize) -> Self {
-        Self { dimensions: dimensions.min(PRIMES.len()), index: 0 }
+        Self::starting_after(dimensions, 0)
+    }
+
+    /// The points after the first `skipped`.
+    pub(crate) fn starting_after(dimensions: usize, skipped: u64) -> Self {
+        Self { dimensions: dimensions.min(PRIMES.len()), index: skipped }
     }
 }
 

@@ -106,7 +106,7 @@ fn joint_rates(
     checked
         .map(|(index, (&rate_deg_s, limits))| {
             let rate_rad_s = rate_deg_s.to_radians();
-            if !(rate_rad_s.abs() <= limits.rate_max_rad_s) {
+            if rate_rad_s.is_nan() || rate_rad_s.abs() > limits.rate_max_rad_s {
                 let allowed = format!(
                     "at most {} in magnitude, the limit of joint {}",
                     Number(degrees(limits.rate_max_rad_s)),

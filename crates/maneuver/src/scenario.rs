@@ -131,8 +131,16 @@ impl Scenario {
     ///
     /// # Errors
     /// [`Error::Field`] for a field that is wrong; those of reading the system.
-    pub fn from_file(mut scenario: file::Scenario, file: &Path) -> Result<Self, Error> {
-        let place = Place::root(file);
+    pub fn from_file(scenario: file::Scenario, file: &Path) -> Result<Self, Error> {
+        Self::from_file_at(scenario, file, &Place::root(file))
+    }
+
+    /// Checks a scenario that stands at `place` in `file`.
+    pub(crate) fn from_file_at(
+        mut scenario: file::Scenario,
+        file: &Path,
+        place: &Place,
+    ) -> Result<Self, Error> {
         if scenario.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }

@@ -1,5 +1,8 @@
 //! A planned maneuver, node by node.
 
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State};
+
 use crate::error::ShapeError;
 
 /// The free-floating system at one instant, with the power its joints take.
@@ -25,6 +28,20 @@ pub struct Node {
     /// Mechanical power of the joints Σ τ q̇ with the control of the interval that starts here; at
     /// the last node, of the interval that ends there.
     pub power_w: f64,
+}
+
+impl Node {
+    /// The state of the full form.
+    pub fn state(&self) -> State<f64> {
+        State {
+            position: Vector3::from(self.position_m),
+            attitude: Quaternion::from_array(self.attitude),
+            velocity: Vector3::from(self.velocity_m_s),
+            angular_rate: Vector3::from(self.angular_rate_rad_s),
+            joint_angles: self.joint_angles_rad.clone(),
+            joint_rates: self.joint_rates_rad_s.clone(),
+        }
+    }
 }
 
 /// What acts between node k and node k + 1.
