@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::graph::{Arena, Node, NodeId};
 use crate::op::Binary;
-use crate::tangent::reachable;
+use crate::subgraph::{Position, Subgraph};
 
 const NONE: u32 = u32::MAX;
 
@@ -26,12 +26,13 @@ struct Guard {
 
 struct ReverseSweep<'a> {
     arena: &'a mut Arena,
-    /// By node: the unguarded adjoint, [`NONE`] if zero.
+    graph: &'a Subgraph,
+    /// By position: the unguarded adjoint, [`NONE`] if zero.
     plain: Vec<NodeId>,
-    /// By node: adjoints that hold under a guard only.
-    guarded: BTreeMap<NodeId, Vec<(GuardId, NodeId)>>,
+    /// Adjoints that hold under a guard only.
+    guarded: BTreeMap<Position, Vec<(GuardId, NodeId)>>,
     guards: Vec<Guard>,
-    /// By node: whether it depends on any of the inputs.
+    /// By position: whether it depends on any of the inputs.
     active: Vec<bool>,
 }
 
@@ -41,48 +42,54 @@ pub(crate) fn adjoints(
     output: NodeId,
     inputs: &[NodeId],
 ) -> Vec<Option<NodeId>> {
-    let size = output as usize + 1;
-    let mut active = vec![false; size];
-    for &input in inputs {
-        if let Some(flag) = active.get_mut(input as usize) {
-            *flag = true;
-        }
+    let graph = Subgraph::below(arena, &[output]);
+    let inputs: Vec<_> = inputs.iter().map(|&input| graph.position(input)).collect();
+    let mut is_input = vec![false; graph.len()];
+    for &input in inputs.iter().flatten() {
+        is_input[input as usize] = true;
     }
-    let order = reachable(arena, &[output]);
-    for &id in &order {
-        if arena.node(id).operands().any(|operand| active[operand as usize]) {
-            active[id as usize] = true;
+    let mut active = is_input.clone();
+    for position in graph.positions() {
+        if graph.node(position).operands().any(|operand| active[operand as usize]) {
+            active[position as usize] = true;
         }
     }
     let one = arena.constant(1.0);
     let mut sweep = ReverseSweep {
         arena,
-        plain: vec![NONE; size],
+        graph: &graph,
+        plain: vec![NONE; graph.len()],
         guarded: BTreeMap::new(),
         guards: Vec::new(),
         active,
     };
-    sweep.add(output, NONE, one);
-    for &id in order.iter().rev() {
-        if sweep.active[id as usize] {
-            sweep.visit(id);
+    let mut totals = vec![None; graph.len()];
+    for position in graph.positions().rev() {
+        if graph.id(position) == output {
+            sweep.add(position, NONE, one);
+        }
+        if is_input[position as usize] {
+            totals[position as usize] = sweep.total(position);
+        }
+        if sweep.active[position as usize] {
+            sweep.visit(position);
         }
     }
-    inputs.iter().map(|&input| sweep.total(input)).collect()
+    inputs.into_iter().map(|input| totals[input? as usize]).collect()
 }
 
 impl ReverseSweep<'_> {
-    fn add(&mut self, id: NodeId, guard: GuardId, value: NodeId) {
-        if !self.active[id as usize] || self.arena.constant_value(value) == Some(0.0) {
+    fn add(&mut self, position: Position, guard: GuardId, value: NodeId) {
+        if !self.active[position as usize] || self.arena.constant_value(value) == Some(0.0) {
             return;
         }
         if guard == NONE {
-            let known = self.plain[id as usize];
-            self.plain[id as usize] =
+            let known = self.plain[position as usize];
+            self.plain[position as usize] =
                 if known == NONE { value } else { self.arena.add(known, value) };
             return;
         }
-        let entries = self.guarded.entry(id).or_default();
+        let entries = self.guarded.entry(position).or_default();
         match entries.iter_mut().find(|(known, _)| *known == guard) {
             Some((_, sum)) => *sum = self.arena.add(*sum, value),
             None => entries.push((guard, value)),
@@ -136,9 +143,9 @@ impl ReverseSweep<'_> {
 
     /// All adjoints of a finished node with their guards; a single unguarded one where the node is
     /// used without condition.
-    fn collect(&mut self, id: NodeId) -> Vec<(GuardId, NodeId)> {
-        let plain = self.plain[id as usize];
-        let mut entries = self.guarded.remove(&id).unwrap_or_default();
+    fn collect(&mut self, position: Position) -> Vec<(GuardId, NodeId)> {
+        let plain = self.plain[position as usize];
+        let mut entries = self.guarded.remove(&position).unwrap_or_default();
         self.join_opposite_sides(&mut entries);
         if plain != NONE {
             entries.insert(0, (NONE, plain));
@@ -154,48 +161,43 @@ impl ReverseSweep<'_> {
         entries
     }
 
-    fn total(&mut self, id: NodeId) -> Option<NodeId> {
-        if id as usize >= self.plain.len() {
-            return None;
-        }
-        let plain = self.plain[id as usize];
+    fn total(&mut self, position: Position) -> Option<NodeId> {
+        let plain = self.plain[position as usize];
         let mut sum = (plain != NONE).then_some(plain);
-        for (guard, value) in self.guarded.get(&id).cloned().unwrap_or_default() {
+        for (guard, value) in self.guarded.get(&position).cloned().unwrap_or_default() {
             let value = self.selected(guard, value);
             sum = Some(sum.map_or(value, |sum| self.arena.add(sum, value)));
         }
         sum.filter(|&sum| self.arena.constant_value(sum) != Some(0.0))
     }
 
-    fn visit(&mut self, id: NodeId) {
-        let node = self.arena.node(id);
-        if matches!(node, Node::Constant(_) | Node::Symbol(_)) {
-            return;
-        }
-        if self.guarded.contains_key(&id) {
-            for (guard, adjoint) in self.collect(id) {
-                self.propagate(id, node, guard, adjoint);
+    fn visit(&mut self, position: Position) {
+        if self.guarded.contains_key(&position) {
+            for (guard, adjoint) in self.collect(position) {
+                self.propagate(position, guard, adjoint);
             }
-        } else if self.plain[id as usize] != NONE {
-            self.propagate(id, node, NONE, self.plain[id as usize]);
+        } else if self.plain[position as usize] != NONE {
+            self.propagate(position, NONE, self.plain[position as usize]);
         }
     }
 
-    fn propagate(&mut self, id: NodeId, node: Node, guard: GuardId, adjoint: NodeId) {
-        match node {
+    fn propagate(&mut self, position: Position, guard: GuardId, adjoint: NodeId) {
+        let graph = self.graph;
+        let id = graph.id(position);
+        match graph.node(position) {
             Node::Constant(_) | Node::Symbol(_) => {}
             Node::Unary(op, x) => {
-                let partial = self.arena.unary_partial(op, x, id);
+                let partial = self.arena.unary_partial(op, graph.id(x), id);
                 let value = self.arena.mul(adjoint, partial);
                 self.add(x, guard, value);
             }
             Node::Binary(Binary::Mul, a, b) if a == b => {
-                let twice = self.arena.scaled(2.0, a);
+                let twice = self.arena.scaled(2.0, graph.id(a));
                 let value = self.arena.mul(adjoint, twice);
                 self.add(a, guard, value);
             }
             Node::Binary(Binary::Div, a, b) => {
-                let reciprocal = self.arena.recip(b);
+                let reciprocal = self.arena.recip(graph.id(b));
                 let by_a = self.arena.mul(adjoint, reciprocal);
                 self.add(a, guard, by_a);
                 if self.active[b as usize] {
@@ -205,7 +207,7 @@ impl ReverseSweep<'_> {
                 }
             }
             Node::Binary(op, a, b) => {
-                let (by_a, by_b) = self.arena.binary_partials(op, a, b, id);
+                let (by_a, by_b) = self.arena.binary_partials(op, graph.id(a), graph.id(b), id);
                 for (operand, partial) in [(a, by_a), (b, by_b)] {
                     if self.active[operand as usize] {
                         let value = self.arena.mul(adjoint, partial);
@@ -214,6 +216,7 @@ impl ReverseSweep<'_> {
                 }
             }
             Node::Select(condition, x, y) => {
+                let condition = graph.id(condition);
                 for (operand, positive) in [(x, true), (y, false)] {
                     if self.active[operand as usize] {
                         let inner = self.guard(Guard { outer: guard, condition, positive });

@@ -36,6 +36,16 @@ impl Node {
         ids.into_iter().take(count)
     }
 
+    /// The same operation on other operands.
+    pub(crate) fn map_operands(self, mut map: impl FnMut(NodeId) -> NodeId) -> Node {
+        match self {
+            Node::Constant(_) | Node::Symbol(_) => self,
+            Node::Unary(op, a) => Node::Unary(op, map(a)),
+            Node::Binary(op, a, b) => Node::Binary(op, map(a), map(b)),
+            Node::Select(a, b, c) => Node::Select(map(a), map(b), map(c)),
+        }
+    }
+
     fn hash(self) -> u64 {
         let (kind, ids) = match self {
             Node::Constant(bits) => (0, [bits as u32, (bits >> 32) as u32, 0]),

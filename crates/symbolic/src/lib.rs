@@ -67,6 +67,7 @@ mod op;
 mod partial;
 mod simplify;
 mod sparsity;
+mod subgraph;
 mod tangent;
 mod trigonometry;
 

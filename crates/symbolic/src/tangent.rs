@@ -2,105 +2,117 @@
 
 use crate::graph::{Arena, Node, NodeId};
 use crate::op::Binary;
+use crate::subgraph::{Position, Subgraph};
 
 /// No tangent: the derivative is structurally zero.
 const ZERO: NodeId = NodeId::MAX;
 
 /// The part of the graph below some outputs, swept once for each direction.
-pub(crate) struct ForwardSweep {
-    /// Every node the outputs need, operands first.
-    order: Vec<NodeId>,
-    /// By node; [`ZERO`] outside the current direction's reach.
+pub(crate) struct ForwardSweep<'a> {
+    graph: &'a Subgraph,
+    /// By position; [`ZERO`] outside the current direction's reach.
     tangents: Vec<NodeId>,
+    needed: Vec<bool>,
 }
 
-impl ForwardSweep {
-    pub(crate) fn new(arena: &Arena, outputs: &[NodeId]) -> Self {
-        let size = outputs.iter().map(|&id| id as usize + 1).max().unwrap_or(0);
-        let order = reachable(arena, outputs);
-        ForwardSweep { order, tangents: vec![ZERO; size] }
+impl<'a> ForwardSweep<'a> {
+    pub(crate) fn new(graph: &'a Subgraph) -> Self {
+        let size = graph.len();
+        ForwardSweep { graph, tangents: vec![ZERO; size], needed: vec![false; size] }
     }
 
-    /// Differentiates every node with respect to `input`; read the result with [`Self::tangent`].
-    pub(crate) fn run(&mut self, arena: &mut Arena, input: NodeId) {
-        for &id in &self.order {
-            self.tangents[id as usize] = if id == input {
-                arena.constant(1.0)
-            } else {
-                tangent(arena, id, &self.tangents).unwrap_or(ZERO)
-            };
+    /// ∂output/∂input of each output; `None` where structurally zero.
+    pub(crate) fn run(
+        &mut self,
+        arena: &mut Arena,
+        input: Position,
+        outputs: &[Position],
+    ) -> Vec<Option<NodeId>> {
+        self.needed.fill(false);
+        for &output in outputs {
+            self.needed[output as usize] = true;
         }
-    }
-
-    /// The derivative of an output in the last direction run; `None` if structurally zero.
-    pub(crate) fn tangent(&self, output: NodeId) -> Option<NodeId> {
-        known(&self.tangents, output)
-    }
-}
-
-/// All nodes that `outputs` depend on, themselves included, operands first.
-pub(crate) fn reachable(arena: &Arena, outputs: &[NodeId]) -> Vec<NodeId> {
-    let size = outputs.iter().map(|&id| id as usize + 1).max().unwrap_or(0);
-    let mut needed = vec![false; size];
-    for &output in outputs {
-        needed[output as usize] = true;
-    }
-    for id in (0..size).rev() {
-        if needed[id] {
-            for operand in arena.node(id as NodeId).operands() {
-                needed[operand as usize] = true;
-            }
-        }
-    }
-    (0..size as NodeId).filter(|&id| needed[id as usize]).collect()
-}
-
-fn known(tangents: &[NodeId], id: NodeId) -> Option<NodeId> {
-    Some(tangents[id as usize]).filter(|&tangent| tangent != ZERO)
-}
-
-fn tangent(arena: &mut Arena, id: NodeId, tangents: &[NodeId]) -> Option<NodeId> {
-    let of = |operand| known(tangents, operand);
-    let result = match arena.node(id) {
-        Node::Constant(_) | Node::Symbol(_) => return None,
-        Node::Unary(op, x) => {
-            let dx = of(x)?;
-            let partial = arena.unary_partial(op, x, id);
-            arena.mul(dx, partial)
-        }
-        Node::Binary(Binary::Mul, a, b) if a == b => {
-            let da = of(a)?;
-            let twice = arena.scaled(2.0, a);
-            arena.mul(da, twice)
-        }
-        Node::Binary(op, a, b) => match (of(a), of(b)) {
-            (None, None) => return None,
-            (Some(da), Some(db)) if op == Binary::Sub => arena.sub(da, db),
-            (Some(da), Some(db)) if op == Binary::Div => {
-                let reciprocal = arena.recip(b);
-                let change = arena.mul(id, db);
-                let numerator = arena.sub(da, change);
-                arena.mul(numerator, reciprocal)
-            }
-            (da, db) => {
-                let (by_a, by_b) = arena.binary_partials(op, a, b, id);
-                let first = da.map(|da| arena.mul(da, by_a));
-                let second = db.map(|db| arena.mul(db, by_b));
-                match (first, second) {
-                    (Some(first), Some(second)) => arena.add(first, second),
-                    (Some(only), None) | (None, Some(only)) => only,
-                    (None, None) => return None,
+        for position in self.graph.positions().rev() {
+            if self.needed[position as usize] {
+                for operand in self.graph.node(position).operands() {
+                    self.needed[operand as usize] = true;
                 }
             }
-        },
-        Node::Select(condition, x, y) => {
-            let (dx, dy) = (of(x), of(y));
-            if dx.is_none() && dy.is_none() {
-                return None;
-            }
-            let zero = arena.constant(0.0);
-            arena.select(condition, dx.unwrap_or(zero), dy.unwrap_or(zero))
         }
-    };
-    (arena.constant_value(result) != Some(0.0)).then_some(result)
+        for position in self.graph.positions() {
+            let tangent = if position == input {
+                Some(arena.constant(1.0))
+            } else if self.needed[position as usize] {
+                self.tangent(arena, position)
+            } else {
+                None
+            };
+            self.tangents[position as usize] = tangent.unwrap_or(ZERO);
+        }
+        outputs.iter().map(|&output| self.known(output)).collect()
+    }
+
+    fn known(&self, position: Position) -> Option<NodeId> {
+        Some(self.tangents[position as usize]).filter(|&tangent| tangent != ZERO)
+    }
+
+    fn tangent(&self, arena: &mut Arena, position: Position) -> Option<NodeId> {
+        let id = self.graph.id(position);
+        let result = match self.graph.node(position) {
+            Node::Constant(_) | Node::Symbol(_) => return None,
+            Node::Unary(op, x) => {
+                let dx = self.known(x)?;
+                let partial = arena.unary_partial(op, self.graph.id(x), id);
+                arena.mul(dx, partial)
+            }
+            Node::Binary(Binary::Mul, a, b) if a == b => {
+                let da = self.known(a)?;
+                let twice = arena.scaled(2.0, self.graph.id(a));
+                arena.mul(da, twice)
+            }
+            Node::Binary(op, a, b) => {
+                let (da, db) = (self.known(a), self.known(b));
+                binary_tangent(arena, op, [self.graph.id(a), self.graph.id(b), id], da, db)?
+            }
+            Node::Select(condition, x, y) => {
+                let (dx, dy) = (self.known(x), self.known(y));
+                if dx.is_none() && dy.is_none() {
+                    return None;
+                }
+                let zero = arena.constant(0.0);
+                let condition = self.graph.id(condition);
+                arena.select(condition, dx.unwrap_or(zero), dy.unwrap_or(zero))
+            }
+        };
+        (arena.constant_value(result) != Some(0.0)).then_some(result)
+    }
+}
+
+/// The tangent of z = op(a, b) from those of a and b.
+fn binary_tangent(
+    arena: &mut Arena,
+    op: Binary,
+    [a, b, z]: [NodeId; 3],
+    da: Option<NodeId>,
+    db: Option<NodeId>,
+) -> Option<NodeId> {
+    match (da, db) {
+        (None, None) => None,
+        (Some(da), Some(db)) if op == Binary::Sub => Some(arena.sub(da, db)),
+        (Some(da), Some(db)) if op == Binary::Div => {
+            let reciprocal = arena.recip(b);
+            let change = arena.mul(z, db);
+            let numerator = arena.sub(da, change);
+            Some(arena.mul(numerator, reciprocal))
+        }
+        (da, db) => {
+            let (by_a, by_b) = arena.binary_partials(op, a, b, z);
+            let first = da.map(|da| arena.mul(da, by_a));
+            let second = db.map(|db| arena.mul(db, by_b));
+            match (first, second) {
+                (Some(first), Some(second)) => Some(arena.add(first, second)),
+                (only, None) | (None, only) => only,
+            }
+        }
+    }
 }

@@ -33,12 +33,12 @@ const COS: [f64; 6] = [
     f64::from_bits(0xBDA8_FAE9_BE88_38D4),
 ];
 
-/// sin(x + k π/2) for |x| ≤ [`REDUCTION_LIMIT`]; anything at all beyond.
+/// (sin x, cos x) for |x| ≤ [`REDUCTION_LIMIT`]; anything at all beyond.
 #[inline(always)]
-pub(crate) fn sin_reduced(x: f64, quarter_turns: u64) -> f64 {
+pub(crate) fn sin_cos_reduced(x: f64) -> (f64, f64) {
     let shifted = x * std::f64::consts::FRAC_2_PI + ROUND_TO_INTEGER;
     let n = shifted - ROUND_TO_INTEGER;
-    let quadrant = shifted.to_bits().wrapping_add(quarter_turns);
+    let quadrant = shifted.to_bits();
 
     // x − n π/2 as an unevaluated sum y + tail.
     let r = x - n * PIO2_1;
@@ -60,19 +60,25 @@ pub(crate) fn sin_reduced(x: f64, quarter_turns: u64) -> f64 {
     let one_less = 1.0 - half;
     let cosine = one_less + (((1.0 - one_less) - half) + (z * q - y * tail));
 
+    // An odd quadrant swaps the two; the next bit of (quadrant, quadrant + 1) gives the signs.
     let odd = (quadrant & 1).wrapping_neg();
-    let magnitude = (cosine.to_bits() & odd) | (sine.to_bits() & !odd);
-    f64::from_bits(magnitude ^ ((quadrant & 2) << 62))
+    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+    let sine_sign = (quadrant & 2) << 62;
+    let cosine_sign = (quadrant.wrapping_add(1) & 2) << 62;
+    (
+        f64::from_bits(((cosine & odd) | (sine & !odd)) ^ sine_sign),
+        f64::from_bits(((sine & odd) | (cosine & !odd)) ^ cosine_sign),
+    )
 }
 
 /// The sine of `x` radians.
 pub(crate) fn sin(x: f64) -> f64 {
-    if x.abs() <= REDUCTION_LIMIT { sin_reduced(x, 0) } else { x.sin() }
+    if x.abs() <= REDUCTION_LIMIT { sin_cos_reduced(x).0 } else { x.sin() }
 }
 
 /// The cosine of `x` radians.
 pub(crate) fn cos(x: f64) -> f64 {
-    if x.abs() <= REDUCTION_LIMIT { sin_reduced(x, 1) } else { x.cos() }
+    if x.abs() <= REDUCTION_LIMIT { sin_cos_reduced(x).1 } else { x.cos() }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::{Compiled, Function, FunctionError, Port};
 use crate::expr::Expr;
 use crate::graph::{Arena, Node, NodeId};
 use crate::sparsity::SparseMatrix;
-use crate::tangent::reachable;
+use crate::subgraph::Subgraph;
 
 /// Collects the ports of a [`Function`]; made by [`Function::builder`].
 #[derive(Clone, Debug)]
@@ -76,8 +76,9 @@ impl FunctionBuilder {
                 .flat_map(|(_, values)| values)
                 .map(|e| e.id_in(arena))
                 .collect();
-            self.check_free_symbols(arena, &inputs, &outputs)?;
-            Ok(compile(&Program { arena, inputs, outputs }))
+            let graph = Subgraph::below(arena, &outputs);
+            self.check_free_symbols(arena, &graph, &inputs)?;
+            Ok(compile(&Program::new(&graph, &inputs, &outputs)))
         })?;
         Ok(Function(Arc::new(Compiled {
             name: self.name,
@@ -118,17 +119,16 @@ impl FunctionBuilder {
     fn check_free_symbols(
         &self,
         arena: &Arena,
+        graph: &Subgraph,
         inputs: &BTreeMap<NodeId, usize>,
-        outputs: &[NodeId],
     ) -> Result<(), FunctionError> {
-        let symbols: Vec<String> = reachable(arena, outputs)
-            .into_iter()
-            .filter(|id| !inputs.contains_key(id))
-            .filter_map(|id| match arena.node(id) {
-                Node::Symbol(number) => Some(arena.symbol_name(number).to_owned()),
-                _ => None,
-            })
-            .collect();
+        let free = |position| match graph.node(position) {
+            Node::Symbol(number) if !inputs.contains_key(&graph.id(position)) => {
+                Some(arena.symbol_name(number).to_owned())
+            }
+            _ => None,
+        };
+        let symbols: Vec<String> = graph.positions().filter_map(free).collect();
         if symbols.is_empty() {
             return Ok(());
         }

@@ -8,7 +8,7 @@ use super::isa::InstructionSet;
 use super::tape::{Instruction, Opcode, Tape};
 use super::workspace::Lanes;
 use crate::op::{self, Binary, Unary};
-use crate::trigonometry::{self, REDUCTION_LIMIT, sin_reduced};
+use crate::trigonometry::{self, REDUCTION_LIMIT, sin_cos_reduced};
 
 /// Evaluates a stretch of the tape in the register file laid out by it.
 pub(super) fn run(
@@ -56,10 +56,26 @@ macro_rules! lanes {
     }};
 }
 
+/// The sines and the cosines of the lanes.
+macro_rules! sin_cos {
+    ($x:expr) => {{
+        let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
+        if all_reducible($x) {
+            for (l, (sine, cosine)) in sines.iter_mut().zip(&mut cosines).enumerate() {
+                (*sine, *cosine) = sin_cos_reduced($x[l]);
+            }
+        } else {
+            sines = lanes!(l => trigonometry::sin($x[l]));
+            cosines = lanes!(l => trigonometry::cos($x[l]));
+        }
+        (sines, cosines)
+    }};
+}
+
 #[inline(always)]
 fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
     for instruction in instructions {
-        let [a, b, c] = instruction.operands;
+        let [a, b, c] = instruction.registers;
         debug_assert!([a, b, c].iter().all(|&register| (register as usize) < registers.len()));
         // SAFETY: `Tape::new` checked every register against the layout, whose size `run` compared
         // with the slice's length.
@@ -73,10 +89,8 @@ fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
             Opcode::Unary(Unary::Neg) => lanes!(l => -x[l]),
             Opcode::Unary(Unary::Abs) => lanes!(l => x[l].abs()),
             Opcode::Unary(Unary::Sqrt) => lanes!(l => x[l].sqrt()),
-            Opcode::Unary(Unary::Sin) if all_reducible(x) => lanes!(l => sin_reduced(x[l], 0)),
-            Opcode::Unary(Unary::Cos) if all_reducible(x) => lanes!(l => sin_reduced(x[l], 1)),
-            Opcode::Unary(Unary::Sin) => lanes!(l => trigonometry::sin(x[l])),
-            Opcode::Unary(Unary::Cos) => lanes!(l => trigonometry::cos(x[l])),
+            Opcode::Unary(Unary::Sin) => sin_cos!(x).0,
+            Opcode::Unary(Unary::Cos) => sin_cos!(x).1,
             Opcode::Unary(op) => unary(op, x),
             Opcode::Binary(op) => binary(op, x, y),
             Opcode::Select => {
@@ -84,6 +98,12 @@ fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
                 lanes!(l => op::select(x[l], y[l], z[l]))
             }
             Opcode::Copy => *x,
+            Opcode::SinCos => {
+                let (sine, cosine) = sin_cos!(x);
+                // SAFETY: as above.
+                unsafe { registers.get_unchecked_mut(b as usize).0 = cosine };
+                sine
+            }
         };
         // SAFETY: as above.
         unsafe { registers.get_unchecked_mut(instruction.result as usize).0 = result };

@@ -8,6 +8,7 @@ mod interpreter;
 mod isa;
 mod native;
 mod port;
+mod schedule;
 mod tape;
 mod workspace;
 

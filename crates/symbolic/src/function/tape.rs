@@ -12,6 +12,8 @@ pub(super) type Register = u32;
 #[derive(Copy, Clone, Debug, PartialEq, Eq)]
 pub(super) enum Opcode {
     Copy,
+    /// Two results from one operand.
+    SinCos,
     Unary(Unary),
     Binary(Binary),
     Select,
@@ -21,15 +23,16 @@ impl Opcode {
     pub(super) fn name(self) -> &'static str {
         match self {
             Opcode::Copy => "copy",
+            Opcode::SinCos => "sin_cos",
             Opcode::Unary(op) => op.name(),
             Opcode::Binary(op) => op.name(),
             Opcode::Select => "select",
         }
     }
 
-    pub(super) fn operand_count(self) -> usize {
+    fn operand_count(self) -> usize {
         match self {
-            Opcode::Copy | Opcode::Unary(_) => 1,
+            Opcode::Copy | Opcode::SinCos | Opcode::Unary(_) => 1,
             Opcode::Binary(_) => 2,
             Opcode::Select => 3,
         }
@@ -40,7 +43,18 @@ impl Opcode {
 pub(super) struct Instruction {
     pub opcode: Opcode,
     pub result: Register,
-    pub operands: [Register; 3],
+    /// The operands; after the one of [`Opcode::SinCos`], the register of the cosine.
+    pub registers: [Register; 3],
+}
+
+impl Instruction {
+    pub(super) fn operands(&self) -> &[Register] {
+        &self.registers[..self.opcode.operand_count()]
+    }
+
+    pub(super) fn second_result(&self) -> Option<Register> {
+        (self.opcode == Opcode::SinCos).then_some(self.registers[1])
+    }
 }
 
 /// The register file: inputs, then outputs, constants and temporaries.
@@ -106,9 +120,9 @@ impl Tape {
         let count = layout.registers();
         assert_eq!(constants.len(), layout.constants);
         for instruction in &instructions {
-            let operands = &instruction.operands;
+            let registers = instruction.registers;
             assert!((instruction.result as usize) < count);
-            assert!(operands.iter().all(|&operand| (operand as usize) < count));
+            assert!(registers.iter().all(|&register| (register as usize) < count));
         }
         Tape { layout, constants, instructions }
     }
@@ -147,9 +161,12 @@ impl Tape {
 impl fmt::Display for Tape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for instruction in &self.instructions {
-            let result = self.register_name(instruction.result);
-            write!(f, "  {result} = {}", instruction.opcode.name())?;
-            for &operand in &instruction.operands[..instruction.opcode.operand_count()] {
+            write!(f, "  {}", self.register_name(instruction.result))?;
+            if let Some(second) = instruction.second_result() {
+                write!(f, " {}", self.register_name(second))?;
+            }
+            write!(f, " = {}", instruction.opcode.name())?;
+            for &operand in instruction.operands() {
                 write!(f, " {}", self.register_name(operand))?;
             }
             writeln!(f)?;

@@ -1,6 +1,7 @@
 //! A tape as machine code.
 
 mod assembler;
+mod cache;
 mod memory;
 mod translate;
 mod uses;
@@ -13,7 +14,8 @@ use super::tape::Tape;
 use super::workspace::Lanes;
 use assembler::Encoding;
 use memory::Code;
-use translate::{Translator, is_native};
+use translate::Translator;
+pub(super) use translate::is_native;
 use uses::NextUses;
 
 /// Machine code for the arithmetic of a tape; the operations it does not know stay interpreted.

@@ -21,7 +21,10 @@ impl NextUses {
         for (time, instruction) in tape.instructions.iter().enumerate().rev() {
             let result = &mut next[instruction.result as usize];
             uses.results[time] = std::mem::replace(result, NEVER);
-            let operands = &instruction.operands[..instruction.opcode.operand_count()];
+            if let Some(second) = instruction.second_result() {
+                next[second as usize] = NEVER;
+            }
+            let operands = instruction.operands();
             for (slot, &operand) in uses.operands[time].iter_mut().zip(operands) {
                 *slot = next[operand as usize];
             }
