@@ -116,27 +116,21 @@ impl Chain {
         let moved: f64 = self.joints.iter().map(|joint| joint.body.mass).sum();
         let total = self.base.mass + moved;
         self.total_mass = total;
-        let position_is_finite = self.root_position.iter().all(|value| value.is_finite());
-        if !(self.base.is_finite() && total.is_finite() && position_is_finite) {
+        let base = Barycentric::new(&self.base, &self.root_position, moved, total);
+        if !(base.is_finite() && total.is_finite()) {
             return Err(ModelError::Overflow { part: Part::Base });
         }
-        let base = Barycentric::new(&self.base, &self.root_position, moved, total);
         let (root, along) = RootCoupling::new(&base, &self.root_rotation);
         self.root = root;
-        if !(self.root.is_finite() && along.z.is_finite()) {
-            return Err(ModelError::Overflow { part: Part::Base });
-        }
         let mut beyond = 0.0;
         for (k, joint) in self.joints.iter_mut().enumerate().rev() {
             let constants = Barycentric::new(&joint.body, &joint.offset, beyond, total);
-            joint.coupling = match k {
-                0 => Coupling::new(constants.shifted(&along)),
-                _ => Coupling::new(constants),
-            };
-            beyond += joint.body.mass;
-            if !(joint.body.is_finite() && joint.coupling.is_finite()) {
+            let constants = if k == 0 { constants.shifted(&along) } else { constants };
+            if !constants.is_finite() {
                 return Err(ModelError::Overflow { part: Part::Link(k) });
             }
+            joint.coupling = Coupling::new(constants);
+            beyond += joint.body.mass;
         }
         Ok(self)
     }

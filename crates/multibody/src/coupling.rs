@@ -52,12 +52,6 @@ impl Coupling {
         };
         Self { first, arm, half, rest, first_over_arm }
     }
-
-    pub fn is_finite(&self) -> bool {
-        let vectors = [self.first, self.arm, self.half];
-        vectors.iter().flatten().all(|value| value.is_finite())
-            && self.rest.iter().flatten().all(|value| value.is_finite())
-    }
 }
 
 /// g, b and C of [`Coupling`].
@@ -74,6 +68,12 @@ impl Barycentric {
         let second =
             offset * offset.transpose() * beyond + body.second - first * first.transpose() / total;
         Self { first, arm: offset - first / total, second }
+    }
+
+    /// Whether no product of the system's numbers overflowed.
+    pub fn is_finite(&self) -> bool {
+        let vectors = self.first.iter().chain(&self.arm);
+        vectors.chain(&self.second).all(|value| value.is_finite())
     }
 
     /// Counted about a point farther inward by `shift`, which turns with the body.
@@ -123,10 +123,6 @@ impl RootCoupling {
         let on_axis = across.amax() == 0.0 && first.x == 0.0 && first.y == 0.0;
         let root = Self { first, second, across, symmetric: diagonal && round && on_axis };
         (root, Vector3::new(0.0, 0.0, arm.z))
-    }
-
-    pub fn is_finite(&self) -> bool {
-        self.first.iter().chain(&self.across).chain(&self.second).all(|value| value.is_finite())
     }
 }
 

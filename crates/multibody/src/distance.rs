@@ -9,9 +9,10 @@ use crate::algebra::{difference, dot, scaled};
 use nalgebra::Vector3;
 use righting_scalar::Scalar;
 
-/// Squared sine of the angle below which two directions count as parallel. One point of the pair
-/// then stands for all: the squared distance is off by at most this times a squared length.
-const PARALLEL: f64 = 1e-14;
+/// Squared sine of an angle below which the crossing point of two lines is lost in rounding. Closer
+/// to parallel than that, lines are taken to cross at that angle: the squared distance is then off by
+/// at most twice this number times the squared length of the longer segment.
+const PARALLEL: f64 = 1e-12;
 
 /// A straight segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,12 +61,12 @@ impl<T: Scalar> Segment<T> {
         let b = dot(&self.direction, &other.direction);
         let c = dot(&self.direction, &apart);
         let f = dot(&other.direction, &apart);
+        // Of parallel lines every point is a closest one; of nearly parallel ones an end of the
+        // segments is, which the sign of the numerator still tells.
         let both = a * e;
-        let denominator = both - b * b;
-        // Of parallel lines every point is a closest one: begin with the start.
-        let crossing = denominator - both * PARALLEL;
-        let numerator = T::select_positive(crossing, b * f - c * e, T::from(0.0));
-        let on_line = numerator / T::select_positive(crossing, denominator, T::from(1.0));
+        let floor = T::select_positive(both, both * PARALLEL, T::from(1.0));
+        let denominator = (both - b * b).maximum(floor);
+        let on_line = (b * f - c * e) / denominator;
         let t = clamped_ratio(b * unit_clamped(on_line) + f, e);
         // Where t was not held back this gives the same point again.
         let s = clamped_ratio(b * t - c, a);

@@ -98,11 +98,6 @@ impl MassMoments {
                 + position * position.transpose() * self.mass,
         }
     }
-
-    pub fn is_finite(&self) -> bool {
-        self.mass.is_finite()
-            && self.first.iter().chain(self.second.iter()).all(|value| value.is_finite())
-    }
 }
 
 /// ∫ x xᵀ dm of a body with inertia ∫ (x² 1 − x xᵀ) dm.

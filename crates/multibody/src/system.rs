@@ -204,8 +204,11 @@ fn check_base(base: &Base) -> Result<(), ModelError> {
 }
 
 fn check_mount(mount: &Mount) -> Result<(), ModelError> {
-    for value in mount.position_m.iter().chain(mount.rotation.matrix().iter()) {
-        check_finite(Part::Mount, "position_m or rotation", *value)?;
+    for value in &mount.position_m {
+        check_finite(Part::Mount, "position_m", *value)?;
+    }
+    for value in mount.rotation.matrix() {
+        check_finite(Part::Mount, "rotation", *value)?;
     }
     let matrix = mount.rotation.matrix();
     let mut deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();

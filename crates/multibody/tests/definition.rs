@@ -5,7 +5,7 @@ mod support;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use righting_multibody::{DhConvention, State, System};
-use support::{assert_near, definition, random};
+use support::{assert_near, definition, random, table_one};
 
 /// Size of the largest momenta a system of these parameters has: what rounding is relative to.
 fn inertia_scale(system: &System, q: &[f64]) -> f64 {
@@ -99,14 +99,14 @@ proptest! {
 #[test]
 fn the_paper_s_systems_stand_straight_up_where_it_draws_them() {
     for (name, system, reach) in
-        [("2-DOF", support::single_link_2dof(), 1.0), ("4-DOF", support::xlink_4dof(), 1.0)]
+        [("2-DOF", table_one::single_link_2dof(), 1.0), ("4-DOF", table_one::xlink_4dof(), 1.0)]
     {
         let rest = vec![0.0; system.joint_count()];
         let tip = system.kinematics(&rest).frames.last().unwrap().origin;
         let top = Vector3::new(0.0, 0.0, 0.25 + reach);
         assert!((tip - top).norm() < 1e-14, "{name}: {tip}");
     }
-    let arm = support::canadarm2();
+    let arm = table_one::canadarm2();
     let bent = [0.0, 0.0, 97.5, 0.0, 90.0, 0.0, 0.0].map(f64::to_radians);
     let lengths: Vec<f64> = arm.links().iter().map(|link| link.length_m()).collect();
     let kinematics = arm.kinematics(&bent);

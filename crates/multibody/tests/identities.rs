@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual, Dual64};
 use proptest::prelude::*;
 use righting_multibody::{Quaternion, State, System};
-use support::{assert_near, random};
+use support::{assert_near, random, table_one};
 
 /// The state on its way: every element with its time derivative.
 fn moving(system: &System, state: &State<f64>, u: &[f64]) -> State<Dual64> {
@@ -173,7 +173,7 @@ fn runge_kutta(x: &[f64], h: f64, f: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
 /// The full form and the reduced form integrate to the same motion.
 #[test]
 fn both_forms_move_alike() {
-    for (name, system) in support::table_one() {
+    for (name, system) in table_one::all() {
         let j = system.joint_count();
         let u: Vec<f64> = (0..j).map(|i| 0.05 * (i as f64 + 1.0).sin()).collect();
         let start = State {

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use righting_multibody::{State, System};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use support::table_one;
 
 #[derive(Deserialize)]
 struct Reference {
@@ -72,7 +73,7 @@ fn agrees_with_pinocchio() {
     let reference: Reference = serde_json::from_str(text).unwrap();
     assert_eq!(reference.systems.len(), 2);
     for (name, samples) in &reference.systems {
-        let table = support::table_one();
+        let table = table_one::all();
         let (_, system) = table.iter().find(|(known, _)| known == name).expect("a known system");
         assert!(samples.len() >= 12);
         for sample in samples {

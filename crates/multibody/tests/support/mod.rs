@@ -3,9 +3,7 @@
 
 pub mod definition;
 pub mod random;
-mod table_one;
-
-pub use table_one::{canadarm2, canadarm2_table, single_link_2dof, table_one, xlink_4dof};
+pub mod table_one;
 
 /// Asserts that two vectors agree, relative to `scale` or the larger norm.
 #[track_caller]

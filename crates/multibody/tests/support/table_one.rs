@@ -58,7 +58,7 @@ pub fn canadarm2() -> System {
 }
 
 /// All four with their names.
-pub fn table_one() -> [(&'static str, System); 4] {
+pub fn all() -> [(&'static str, System); 4] {
     [
         ("single_link_2dof", single_link_2dof()),
         ("xlink_4dof", xlink_4dof()),
