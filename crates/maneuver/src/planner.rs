@@ -3,14 +3,22 @@
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, Guess, Iteration, MultipleShooting, OcpError, Options, StageFunctions, Start,
+    Control, Grid, Guess, Iteration, MultipleShooting, OcpError, Options, Rung, Solution,
+    StageFunctions, Start, refine,
 };
 
 use crate::error::ShapeError;
+use crate::file::{Guess as ScenarioGuess, NamedGuess, RandomStarts};
 use crate::formulation::{Coordinates, FormulatedManeuver};
-use crate::scenario::Scenario;
+use crate::scenario::{MAX_STARTS, Scenario};
 use crate::solution::{IterationRecord, Status};
+use crate::starts::Swings;
 use crate::trajectory::{Interval, Node, Trajectory};
+
+/// Steps of the grid on which starts are compared.
+const COARSE_STEPS: usize = 60;
+/// Swings that the automatic guess tries beside the constant one.
+const AUTO_SWINGS: usize = 4;
 
 /// A plan that was computed, converged or not.
 #[derive(Clone, Debug)]
@@ -25,8 +33,10 @@ pub struct Plan {
     pub iterations: usize,
     /// Largest violation of any constraint of the nonlinear program, unscaled.
     pub constraint_violation: f64,
-    /// One record an iteration, the starting point first.
+    /// One record an iteration of the last solve, the starting point first.
     pub history: Vec<IterationRecord>,
+    /// Every solve on the way, in order: the coarse starts, then the grids up to the asked one.
+    pub rungs: Vec<Rung>,
     /// Where the time went.
     pub timing: PlanTiming,
 }
@@ -62,6 +72,10 @@ pub enum PlanError {
 /// Plans the maneuver of a scenario. `on_iteration` sees the optimizer's progress and may stop it:
 /// the plan is then [`Status::Interrupted`].
 ///
+/// From the paper's constant guess the problem is solved on the asked grid. Any other guess is
+/// solved on a coarse grid from several starts first, and the best of those plans is carried to the
+/// asked grid; if that fails, the plan of the constant guess is the answer.
+///
 /// # Errors
 /// [`PlanError`] when there is nothing to optimize.
 pub fn plan(
@@ -69,58 +83,162 @@ pub fn plan(
     on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
 ) -> Result<Plan, PlanError> {
     let started = Instant::now();
-    let FormulatedManeuver { problem, coordinates, initial } = FormulatedManeuver::new(scenario);
-    let functions = StageFunctions::compile(&problem)?;
-    let trace = started.elapsed();
-
-    let started = Instant::now();
-    let horizon = scenario.horizon();
-    let grid = Grid::new(horizon.duration_s, horizon.steps)?;
-    let mut program = MultipleShooting::new(&functions, grid, &initial)?;
-    let joints = scenario.system().joint_count();
-    let start = Start::Guess(Guess::constant(&initial, joints, horizon.steps));
-    let guess = started.elapsed();
-
-    let started = Instant::now();
-    let settings = scenario.solver();
-    let options = Options {
-        tolerance: settings.tolerance,
-        max_iterations: settings.max_iterations as u32,
-        ..Options::default()
+    let formulated = FormulatedManeuver::new(scenario);
+    let functions = StageFunctions::compile(&formulated.problem)?;
+    let mut timing = PlanTiming { trace: started.elapsed(), ..PlanTiming::default() };
+    let mut search = Search {
+        scenario,
+        formulated: &formulated,
+        functions: &functions,
+        grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
+        on_iteration,
+        rungs: Vec::new(),
+        interrupted: false,
     };
-    let mut history = Vec::new();
-    let solution = program.solve(&start, &options, |iteration| {
-        let record = record(iteration);
-        history.push(record);
-        on_iteration(&record)
-    })?;
-    let solve = started.elapsed();
-    let evaluate = solution.timing.evaluation.total();
+
+    let started = Instant::now();
+    let coarse = search.best_coarse_solution()?;
+    timing.guess = started.elapsed();
+
+    let started = Instant::now();
+    let solution = search.finish(coarse)?;
+    timing.solve = started.elapsed();
+    timing.evaluate = solution.timing.evaluation.total();
+    timing.linear_algebra = match solution.timing.linear_solver {
+        Some(linear_solver) => linear_solver.total(),
+        None => solution.timing.total.saturating_sub(timing.evaluate),
+    };
     Ok(Plan {
-        trajectory: trajectory(scenario, &coordinates, &solution)?,
-        status: status(solution.status),
+        trajectory: trajectory(scenario, &formulated.coordinates, &solution)?,
+        status: if search.interrupted { Status::Interrupted } else { status(solution.status) },
         objective: solution.objective,
-        iterations: solution.history.len().saturating_sub(1),
+        iterations: solution.iterations(),
         constraint_violation: solution.constraint_violation,
-        history,
-        timing: PlanTiming {
-            trace,
-            guess,
-            evaluate,
-            linear_algebra: solution
-                .timing
-                .linear_solver
-                .map_or(solve.saturating_sub(evaluate), |timing| timing.total()),
-            solve,
-        },
+        history: solution.history.iter().map(record).collect(),
+        rungs: search.rungs,
+        timing,
     })
+}
+
+/// The solves that lead to a plan.
+struct Search<'a> {
+    scenario: &'a Scenario,
+    formulated: &'a FormulatedManeuver,
+    functions: &'a StageFunctions,
+    /// The asked grid.
+    grid: Grid,
+    on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
+    rungs: Vec<Rung>,
+    interrupted: bool,
+}
+
+impl Search<'_> {
+    fn options(&self) -> Options {
+        let settings = self.scenario.solver();
+        Options {
+            tolerance: settings.tolerance,
+            max_iterations: settings.max_iterations as u32,
+            ..Options::default()
+        }
+    }
+
+    fn swings(&self, steps: usize) -> Swings<'_> {
+        Swings {
+            scenario: self.scenario,
+            coordinates: &self.formulated.coordinates,
+            initial: &self.formulated.initial,
+            steps,
+        }
+    }
+
+    /// The starts on the coarse grid; none if the asked grid is solved at once.
+    fn starts(&self, steps: usize) -> Vec<Guess> {
+        let swings = self.swings(steps);
+        let (first, count) = match self.scenario.solver().guess {
+            ScenarioGuess::Named(NamedGuess::Constant) => return Vec::new(),
+            ScenarioGuess::Named(NamedGuess::Auto) => (0, AUTO_SWINGS),
+            ScenarioGuess::Starts(RandomStarts { starts, seed }) => {
+                (seed.wrapping_mul(MAX_STARTS) % (1 << 40), starts as usize)
+            }
+        };
+        std::iter::once(swings.constant()).chain(swings.from(first).take(count)).collect()
+    }
+
+    fn solve_on(&mut self, steps: usize, guess: Guess) -> Result<Solution, OcpError> {
+        let grid = self.grid.with_steps(steps)?;
+        let mut program = MultipleShooting::new(self.functions, grid, &self.formulated.initial)?;
+        let options = self.options();
+        let solution = program.solve(&Start::Guess(guess), &options, |iteration| {
+            (self.on_iteration)(&record(iteration))
+        })?;
+        self.note(Rung { steps, status: solution.status, iterations: solution.iterations() });
+        Ok(solution)
+    }
+
+    fn note(&mut self, rung: Rung) {
+        self.interrupted |= rung.status == righting_ocp::Status::UserStop;
+        self.rungs.push(rung);
+    }
+
+    fn best_coarse_solution(&mut self) -> Result<Option<Solution>, OcpError> {
+        let steps = self.grid.steps().min(COARSE_STEPS);
+        let mut best: Option<Solution> = None;
+        for guess in self.starts(steps) {
+            let solution = self.solve_on(steps, guess)?;
+            if self.interrupted {
+                return Ok(Some(best.unwrap_or(solution)));
+            }
+            let better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
+            if solution.status.is_success() && better {
+                best = Some(solution);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The plan on the asked grid, from the best coarse one if there is one.
+    fn finish(&mut self, coarse: Option<Solution>) -> Result<Solution, OcpError> {
+        let steps = self.grid.steps();
+        if let Some(coarse) = coarse {
+            if self.interrupted {
+                return self.carried(coarse);
+            }
+            if coarse.controls.len() == steps {
+                return Ok(coarse);
+            }
+            let options = self.options();
+            let (solution, rungs) = refine(
+                self.functions,
+                self.grid,
+                &[],
+                &self.formulated.initial,
+                coarse.point,
+                &options,
+                |iteration| (self.on_iteration)(&record(iteration)),
+            )?;
+            rungs.into_iter().for_each(|rung| self.note(rung));
+            if solution.status.is_success() || self.interrupted {
+                return Ok(solution);
+            }
+        }
+        let constant = self.swings(steps).constant();
+        self.solve_on(steps, constant)
+    }
+
+    /// A coarse solution shown on the asked grid as it is.
+    fn carried(&self, coarse: Solution) -> Result<Solution, OcpError> {
+        let program = MultipleShooting::new(self.functions, self.grid, &self.formulated.initial)?;
+        let point = coarse.point.resampled(program.initial_state(), self.grid.steps());
+        let (states, controls) = program.trajectory(&point);
+        Ok(Solution { states, controls, point, ..coarse })
+    }
 }
 
 /// The whole motion, with the torques that it takes and their power.
 fn trajectory(
     scenario: &Scenario,
     coordinates: &Coordinates,
-    solution: &righting_ocp::Solution,
+    solution: &Solution,
 ) -> Result<Trajectory, ShapeError> {
     let system = &scenario.system().model;
     let steps = scenario.horizon().steps;
@@ -141,7 +259,11 @@ fn trajectory(
             attitude: state.attitude.to_array(),
             velocity_m_s: state.velocity.into(),
             angular_rate_rad_s: state.angular_rate.into(),
-            power_w: torques.iter().zip(&state.joint_rates).map(|(torque, rate)| torque * rate).sum(),
+            power_w: torques
+                .iter()
+                .zip(&state.joint_rates)
+                .map(|(torque, rate)| torque * rate)
+                .sum(),
             joint_angles_rad: state.joint_angles,
             joint_rates_rad_s: state.joint_rates,
         });

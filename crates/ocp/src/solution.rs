@@ -23,3 +23,10 @@ pub struct Solution {
     /// Where the time went.
     pub timing: Timing,
 }
+
+impl Solution {
+    /// Number of iterations; the start is not one.
+    pub fn iterations(&self) -> usize {
+        self.history.last().map_or(0, |last| last.iteration)
+    }
+}

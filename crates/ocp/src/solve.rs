@@ -35,7 +35,7 @@ impl MultipleShooting<'_> {
             lower: solution.multipliers.lower,
             upper: solution.multipliers.upper,
         };
-        let (states, controls) = self.trajectory(&point.z);
+        let (states, controls) = self.trajectory(&point);
         Ok(Solution {
             status: solution.status,
             objective: solution.objective,
@@ -67,9 +67,10 @@ impl MultipleShooting<'_> {
         }
     }
 
-    /// All states at the nodes and the controls of the steps. The passive states are integrated
-    /// along the trajectory with the same steps.
-    fn trajectory(&self, z: &[f64]) -> (Samples, Samples) {
+    /// All states at the nodes 0…N and the controls of the steps 0…N−1 of a point on this grid. The
+    /// passive states are integrated along the trajectory with the same steps.
+    pub fn trajectory(&self, point: &Point) -> (Samples, Samples) {
+        let z = &point.z;
         let (functions, layout, steps) = (self.functions(), self.layout(), self.grid().steps());
         let mut states = Samples::new(functions.all_states);
         let mut controls = Samples::new(functions.controls);

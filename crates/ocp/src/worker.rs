@@ -131,11 +131,11 @@ impl Worker {
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
         self.next.copy_from_slice(&self.states);
-        for stage in 0..STAGES {
-            advance(workspace, &self.states, NODE[stage] * h, &self.rates);
+        for (node, weight) in NODE.into_iter().zip(WEIGHT) {
+            advance(workspace, &self.states, node * h, &self.rates);
             functions.ode.value.evaluate_block(workspace);
             self.rates.copy_from_slice(workspace.output(0));
-            add_scaled(&mut self.next, WEIGHT[stage] * h, &self.rates);
+            add_scaled(&mut self.next, weight * h, &self.rates);
         }
         &self.next
     }
@@ -154,8 +154,8 @@ impl Worker {
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
         self.step_first.input_mut(STEP_H).fill(h);
-        for stage in 0..STAGES {
-            advance(workspace, &self.states, NODE[stage] * h, &self.rates);
+        for (stage, node) in NODE.into_iter().enumerate() {
+            advance(workspace, &self.states, node * h, &self.rates);
             store.point_mut(stage).copy_from_slice(workspace.input_mut(0));
             functions.ode.first.evaluate_block(workspace);
             self.rates.copy_from_slice(workspace.output(0));

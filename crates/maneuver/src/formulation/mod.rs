@@ -10,6 +10,8 @@
 //! square is smooth where two links meet.
 
 mod coordinates;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
@@ -80,17 +82,18 @@ impl Goal {
             Maneuver::Slew(slew) => slew.target,
             Maneuver::Detumble => initial.attitude,
         };
-        Self {
-            attitude,
-            joint_angles_rad: initial.joint_angles_rad.clone(),
-        }
+        Self { attitude, joint_angles_rad: initial.joint_angles_rad.clone() }
     }
 
     fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {
         let desired = Quaternion::from_array(self.attitude.to_array().map(T::from));
         let attitude_error = state.attitude.error_vector(&desired);
-        let joint_errors: Vec<T> =
-            state.joint_angles.iter().zip(&self.joint_angles_rad).map(|(&q, &goal)| q - goal).collect();
+        let joint_errors: Vec<T> = state
+            .joint_angles
+            .iter()
+            .zip(&self.joint_angles_rad)
+            .map(|(&q, &goal)| q - goal)
+            .collect();
         let terms = [
             (weights.position, sum_of_squares(state.position.as_slice())),
             (weights.attitude, sum_of_squares(attitude_error.as_slice())),
