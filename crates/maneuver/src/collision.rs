@@ -109,13 +109,21 @@ impl CollisionModel {
             .clearances(&posture)
             .find(|clearance| clearance.distance_m < clearance.least_m - ROUNDING_M);
         let Some(Clearance { between, distance_m, least_m }) = collision else { return Ok(()) };
-        let value = format!("a start with {between} {distance_m:.4} m apart");
-        let allowed = match between {
-            Between::Links(..) => format!("at least the clearance, {least_m} m"),
-            Between::LinkAndBody(link) => format!(
-                "at least {least_m:.4} m from the base's center of mass, keep-out radius and \
-                 clearance (if link {} is part of the mount, set its body_exempt)",
-                link + 1
+        let (value, allowed) = match between {
+            Between::Links(a, b) => (
+                format!("a start with links {} and {} {distance_m:.4} m apart", a + 1, b + 1),
+                format!("at least the clearance, {least_m} m"),
+            ),
+            Between::LinkAndBody(link) => (
+                format!(
+                    "a start with link {} {distance_m:.4} m from the base's center of mass",
+                    link + 1
+                ),
+                format!(
+                    "at least {least_m:.4} m, keep-out radius and clearance (if link {} is part of \
+                     the mount, set its body_exempt)",
+                    link + 1
+                ),
             ),
         };
         Err(place.refuse(value, allowed))

@@ -57,8 +57,14 @@ impl Document {
     }
 }
 
+/// A key as part of a path that stays on one line.
+fn shown_key(key: &str) -> String {
+    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
+    key.chars().map(escaped).collect()
+}
+
 /// A value as JSON, shortened to fit in a line.
-fn shown(value: &Value) -> String {
+pub(crate) fn shown(value: &Value) -> String {
     const LONGEST: usize = 60;
     let text = value.to_string();
     if text.chars().count() <= LONGEST {

@@ -10,7 +10,7 @@ use crate::collision::CollisionModel;
 use crate::error::Error;
 use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, SystemReference};
 use crate::initial::Initial;
-use crate::json::{Bounds, Document, Number, Place};
+use crate::json::{Bounds, Document, Number, Place, shown};
 use crate::system_description::{SystemDescription, read_system};
 
 /// The most intervals a horizon may have.
@@ -268,7 +268,7 @@ fn resolve_system(
             let system_file: PathBuf = file.parent().unwrap_or(Path::new("")).join(&*path);
             let system = read_system(&system_file).map_err(|error| match error {
                 Error::Field { .. } | Error::NotJson { .. } => error,
-                unreadable => place.refuse(format!("\"{path}\""), unreadable.to_string()),
+                unreadable => place.refuse(shown(&path.as_str().into()), unreadable.to_string()),
             })?;
             let place = Place::root(&system_file);
             let description = SystemDescription::from_file(&system, &place)?;

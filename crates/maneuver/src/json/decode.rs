@@ -10,7 +10,7 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 use serde_json::{Map, Value};
 
-use super::{nearest, shown};
+use super::{nearest, shown, shown_key};
 use crate::error::{FieldError, FieldProblem};
 
 /// Reads a tree as a `T`.
@@ -60,8 +60,8 @@ impl DecodeError {
         let mut path = String::new();
         for step in self.steps.iter().rev() {
             match step {
-                Step::Key(key) if path.is_empty() => path.push_str(key),
-                Step::Key(key) => path.extend([".", key]),
+                Step::Key(key) if path.is_empty() => path.push_str(&shown_key(key)),
+                Step::Key(key) => path.extend([".", &shown_key(key)]),
                 Step::Index(index) => path.push_str(&format!("[{index}]")),
             }
         }

@@ -7,6 +7,8 @@ use serde::de::{
 };
 use serde_json::{Map, Number, Value};
 
+use super::shown_key;
+
 /// What the parser is told when a key appears twice, to know its own complaint again.
 const DUPLICATE: &str = "duplicate field";
 
@@ -29,7 +31,7 @@ pub(super) fn parse(text: &str) -> Result<Value, SyntaxError> {
     let tree: Result<Unique, _> = serde_path_to_error::deserialize(&mut source);
     let Unique(root) = tree.map_err(|error| {
         let path = error.path().to_string();
-        syntax_error(if path == "." { String::new() } else { path }, error.inner())
+        syntax_error(if path == "." { String::new() } else { shown_key(&path) }, error.inner())
     })?;
     source.end().map_err(|error| syntax_error(String::new(), &error))?;
     Ok(root)
