@@ -10,7 +10,7 @@ use crate::algebra::{
 use crate::dynamics::{BaseAcceleration, Spin};
 use crate::inertia::{MassMoments, inertia};
 use crate::state::State;
-use crate::sweep::Pair;
+use crate::sweep::{Pair, joint_rotations};
 use crate::system::System;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
@@ -90,7 +90,7 @@ impl System {
         let chain = &self.chain;
         let body =
             Motion { spin: Spin { rate: *omega, acceleration: base.angular }, origin: base.linear };
-        let rotations = joint_rotations(self, q);
+        let rotations = joint_rotations(chain, q);
         let mut motion = Motion {
             origin: sum(&body.origin, &body.spin.acceleration_of(&chain.root_position)),
             ..body
@@ -147,7 +147,7 @@ impl System {
             spin: Spin { rate: state.angular_rate, acceleration: zero() },
             origin: state.attitude.to_body(&state.velocity),
         };
-        let rotations = joint_rotations(self, &state.joint_angles);
+        let rotations = joint_rotations(chain, &state.joint_angles);
         let swing = |motion: &Motion<T>, position: &Vector3<f64>| {
             sum(&motion.origin, &cross(&motion.spin.rate, &constant(position)))
         };
@@ -162,9 +162,4 @@ impl System {
         }
         energy
     }
-}
-
-fn joint_rotations<T: Scalar>(system: &System, q: &[T]) -> Vec<PlaneRotation<T>> {
-    let joints = &system.chain.joints;
-    joints.iter().zip(q).map(|(joint, angle)| PlaneRotation::of(*angle, joint.angle)).collect()
 }

@@ -4,6 +4,7 @@
 mod algebra;
 mod attitude;
 mod chain;
+mod clearance;
 mod composite;
 mod coupling;
 mod distance;

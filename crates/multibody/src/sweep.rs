@@ -42,6 +42,12 @@ impl<T: Scalar> PlaneRotation<T> {
     }
 }
 
+/// Each joint's rotation from K to the axes in which the joint turns.
+pub(crate) fn joint_rotations<T: Scalar>(chain: &Chain, q: &[T]) -> Vec<PlaneRotation<T>> {
+    let joints = chain.joints.iter().zip(q);
+    joints.map(|(joint, angle)| PlaneRotation::of(*angle, joint.angle)).collect()
+}
+
 /// Each joint's rotation from K to the axes in which its group turns: by the sum of the angles from
 /// the group's first joint to this one.
 pub(crate) fn group_rotations<T: Scalar>(chain: &Chain, q: &[T]) -> Vec<PlaneRotation<T>> {

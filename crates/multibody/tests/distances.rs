@@ -8,6 +8,7 @@ use num_dual::HyperDual64;
 use proptest::prelude::*;
 use righting_multibody::Segment;
 use righting_scalar::Scalar;
+use support::random;
 
 type Ends = [Vector3<f64>; 4];
 
@@ -172,6 +173,27 @@ fn distance_is_the_root_of_its_square() {
     assert_relative_eq!(arm.distance_to_point(&v(1., 3., 5.)), 5.0);
     assert_relative_eq!(arm.distance_to_point(&v(-3., 4., 1.)), 5.0);
     assert_eq!(arm.end(), v(2., 0., 1.));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    /// Both ways to the same number: from the segments in body axes, and link to link.
+    #[test]
+    fn clearances((system, state, _) in random::motion()) {
+        let q = &state.joint_angles;
+        let segments = system.kinematics(q).segments;
+        for (a, segment) in segments.iter().enumerate() {
+            let expected = segment.squared_distance_to_point(&Vector3::zeros());
+            let squared = system.squared_distance_to_base(q, a);
+            prop_assert!((squared - expected).abs() < 1e-12, "{} {}", squared, expected);
+            for (b, other) in segments.iter().enumerate() {
+                let expected = segment.squared_distance_to_segment(other);
+                let squared = system.squared_distance_between(q, a, b);
+                prop_assert!((squared - expected).abs() < 2e-11, "{} {}", squared, expected);
+            }
+        }
+    }
 }
 
 /// A straight arm is where every maneuver starts: all links on one line.
