@@ -84,10 +84,10 @@ impl System {
         self.assert_joint_slice(q);
         let rotations = joint_rotations(&self.chain, q);
         let mut carried = start;
-        for k in first..=last {
+        for (k, rotation) in rotations.iter().enumerate().take(last + 1).skip(first) {
             carried = Carried {
-                point: rotations[k].turn_back(&carried.point),
-                direction: rotations[k].turn_back(&carried.direction),
+                point: rotation.turn_back(&carried.point),
+                direction: rotation.turn_back(&carried.direction),
             };
             if k < last {
                 let offset = -self.chain.joints[k].offset;
