@@ -24,7 +24,9 @@ fn main() {
     };
     let rustc = env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let rustc = first_line(&rustc, &["--version"]);
-    println!("cargo::rustc-env=RIGHTING_REVISION={revision}");
+    let version = env::var("CARGO_PKG_VERSION").unwrap_or_default();
+    let version = if revision.is_empty() { version } else { format!("{version} ({revision})") };
+    println!("cargo::rustc-env=RIGHTING_VERSION={version}");
     println!("cargo::rustc-env=RIGHTING_RUSTC={}", rustc.trim_start_matches("rustc "));
     println!("cargo::rustc-env=RIGHTING_TARGET={}", env::var("TARGET").unwrap_or_default());
 }

@@ -8,4 +8,5 @@ if [ ! -x bench/.venv/bin/python ]; then
 fi
 bench/.venv/bin/python -m pip install --quiet --disable-pip-version-check -r bench/requirements.txt
 cargo build --release --locked
-exec bench/.venv/bin/python bench/compare.py "$@"
+program="${CARGO_TARGET_DIR:-target}/release/righting"
+exec bench/.venv/bin/python bench/compare.py --righting "$program" "$@"

@@ -1,2 +1,91 @@
-//! Command line of Righting.
-fn main() {}
+//! `righting`: plans how a free-floating spacecraft turns itself with nothing but its robot arm.
+//!
+//! One file a subcommand. Results go to files and stdout, everything else to stderr; exit codes are
+//! those of [`failure::Failure`].
+#![forbid(unsafe_code)]
+
+mod blas;
+mod build;
+mod doctor;
+mod failure;
+mod interrupt;
+mod output;
+mod output_folder;
+mod progress;
+mod schema;
+mod solve;
+mod verify;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
+#[derive(Parser)]
+#[command(name = "righting", version = build::VERSION, after_help = EXIT_CODES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done and verified
+  2    bad input or usage
+  3    no acceptable plan
+  4    a plan was found but failed its verification
+  130  interrupted";
+
+#[derive(Subcommand)]
+enum Command {
+    Solve(solve::Arguments),
+    Verify(verify::Arguments),
+    Schema(schema::Arguments),
+    Doctor(doctor::Arguments),
+}
+
+fn main() -> ExitCode {
+    blas::use_one_thread();
+    let command = Arguments::parse().command;
+    let json = command.prints_json();
+    let result = match command {
+        Command::Solve(arguments) => solve::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => report(&failure, json),
+    }
+}
+
+impl Command {
+    fn prints_json(&self) -> bool {
+        match self {
+            Self::Solve(arguments) => arguments.json,
+            Self::Verify(arguments) => arguments.json,
+            Self::Schema(_) => false,
+            Self::Doctor(arguments) => arguments.json,
+        }
+    }
+}
+
+/// Says on stderr what went wrong; who asked for JSON gets one object whatever happens.
+fn report(failure: &Failure, json: bool) -> ExitCode {
+    output::complain(&format!("error: {failure}"));
+    if let Some(hint) = failure.hint() {
+        output::complain(&format!("  hint: {hint}"));
+    }
+    if json && !failure.follows_results() {
+        let object = serde_json::json!({
+            "error": failure.to_string(),
+            "exit_code": failure.exit_code(),
+        });
+        // Stdout itself may be what failed: there is nobody left to tell.
+        let _ = output::print_json(&object);
+    }
+    ExitCode::from(failure.exit_code())
+}

@@ -150,19 +150,33 @@ fn table(checks: &[Check]) -> Vec<String> {
 }
 
 fn check_cells(check: &Check) -> [String; 6] {
+    let (unit, scale) = in_degrees(&check.unit);
+    let [value, limit] = [check.value, check.limit].map(|number| scale * number);
     let (sign, margin) = match check.sense {
-        Sense::AtMost => ("\u{2264}", check.limit - check.value),
-        Sense::AtLeast => ("\u{2265}", check.value - check.limit),
+        Sense::AtMost => ("\u{2264}", limit - value),
+        Sense::AtLeast => ("\u{2265}", value - limit),
     };
-    let unit = if check.unit.is_empty() { String::new() } else { format!(" {}", check.unit) };
+    let gap = if unit.is_empty() { "" } else { " " };
+    let tolerated = match check.passed && margin < 0.0 {
+        true => format!(" (\u{b1} {} is tolerated)", short(scale * check.tolerance)),
+        false => String::new(),
+    };
     let time = check.time_s.map(|time_s| format!("{} s", short(time_s)));
     let place: Vec<String> = check.subject.iter().cloned().chain(time).collect();
     [
         if check.passed { "ok" } else { "FAILED" }.to_owned(),
         check.name.clone(),
-        short(check.value),
-        format!("{sign} {}{unit}", short(check.limit)),
+        short(value),
+        format!("{sign} {}{gap}{unit}", short(limit)),
         short(margin),
-        place.join(" at "),
+        place.join(" at ") + &tolerated,
     ]
+}
+
+/// The unit that people think in, and how many of it make one of `unit`.
+fn in_degrees(unit: &str) -> (String, f64) {
+    match unit.strip_prefix("rad") {
+        Some(rest) => (format!("deg{rest}"), 1f64.to_degrees()),
+        None => (unit.to_owned(), 1.0),
+    }
 }

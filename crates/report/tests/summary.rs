@@ -17,7 +17,7 @@ fn a_verified_slew_says_asked_reached_proven_and_where() {
         "solved after 19 iterations and 0.45 s in all: objective 9.068500e-4",
         "attitude error 2.0e−5 (0.0023°)",
         "Verified: an independent integration agrees and every limit holds",
-        "ok  joint angle    0.8  ≤ 0.872 rad   0.072  joint 2 at 12.3 s",
+        "ok  joint angle   45.8  ≤ 50 deg    4.13  joint 2 at 12.3 s",
         "out/demo/trajectory.csv",
     ] {
         assert!(text.contains(part), "no \"{part}\" in:\n{text}");
@@ -64,4 +64,14 @@ fn no_two_statuses_read_alike() {
     phrases.sort_unstable();
     phrases.dedup();
     assert_eq!(phrases.len(), all.len());
+}
+
+#[test]
+fn a_limit_exceeded_within_its_tolerance_says_so() {
+    let (mut solution, _) = common::result("slew", 4, 600);
+    let check = &mut solution.verification.checks[0];
+    check.value = check.limit + 1e-4;
+    check.tolerance = 1e-3;
+    let text = verification_summary(&solution);
+    assert!(text.contains("joint 2 at 12.3 s (± 0.0573 is tolerated)"), "{text}");
 }

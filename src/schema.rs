@@ -1,0 +1,31 @@
+//! `righting schema`: the formats of the input files.
+
+use clap::{Args, ValueEnum};
+use righting_maneuver::schema::{scenario_schema, system_schema};
+
+use crate::failure::Failure;
+use crate::output;
+
+/// Print the JSON Schema of an input file.
+#[derive(Args)]
+pub struct Arguments {
+    /// Which file.
+    #[arg(value_enum, default_value = "scenario")]
+    file: File,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum File {
+    /// A maneuver to plan.
+    Scenario,
+    /// A spacecraft and its arm.
+    System,
+}
+
+/// Prints the schema.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    output::print_json(&match arguments.file {
+        File::Scenario => scenario_schema(),
+        File::System => system_schema(),
+    })
+}

@@ -1,0 +1,169 @@
+//! `righting solve`: plan a maneuver, prove it, write it down.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use righting_maneuver::detumble::rate_bound_rad_s;
+use righting_maneuver::solution::SCHEMA;
+use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
+use righting_maneuver::{
+    Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory, Verification,
+    Versions, plan, verify,
+};
+use righting_ocp::Control;
+use righting_report::{attitude_svg, joints_svg, summary, write_whole};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::output_folder::{ATTITUDE_FILE, JOINTS_FILE, OutputFolder, ResultFiles};
+use crate::progress::Progress;
+use crate::{build, output};
+
+/// Plan the maneuver of a scenario, verify the plan and write it to a folder.
+#[derive(Args)]
+pub struct Arguments {
+    /// The scenario, a JSON file.
+    scenario: PathBuf,
+    /// The folder for trajectory.csv, solution.json, attitude.svg and joints.svg; made if missing.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Print the contents of solution.json and the files' paths as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Printed<'a> {
+    #[serde(flatten)]
+    solution: &'a Solution,
+    files: ResultFiles,
+}
+
+/// Solves, verifies, writes and prints.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let started = Instant::now();
+    let interrupt = Interrupt::watch();
+    let scenario = Scenario::read(&arguments.scenario)?;
+    let load = started.elapsed();
+    let folder = OutputFolder::open(&arguments.out)?;
+
+    let progress = Progress::start();
+    let plan = plan(&scenario, &mut |record| {
+        progress.show(record);
+        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+    })?;
+    progress.show_stage("verifying");
+    let checking = Instant::now();
+    let verification = match plan.status.is_acceptable() {
+        true => verify(&scenario, &plan.trajectory),
+        false => Verification::default(),
+    };
+    let verify = checking.elapsed();
+    let times = Times { load, verify };
+    let mut solution = assemble(&scenario, &plan, verification, times);
+    let files = write(&folder, &mut solution, &plan.trajectory, started)?;
+    drop(progress);
+
+    if arguments.json {
+        output::print_json(&Printed { solution: &solution, files })?;
+    } else {
+        output::print(&summary(&solution, &files.paths()))?;
+    }
+    conclude(&solution)
+}
+
+/// Whether that is what was asked for.
+fn conclude(solution: &Solution) -> Result<(), Failure> {
+    if solution.status == Status::Interrupted {
+        return Err(Failure::Interrupted);
+    }
+    if !solution.status.is_acceptable() {
+        return Err(Failure::NoPlan { status: solution.status });
+    }
+    Failure::of_verification(solution).map_or(Ok(()), Err)
+}
+
+/// What this command timed itself.
+struct Times {
+    load: Duration,
+    verify: Duration,
+}
+
+/// The contents of `solution.json`, but for the total time.
+fn assemble(
+    scenario: &Scenario,
+    plan: &Plan,
+    verification: Verification,
+    times: Times,
+) -> Solution {
+    let timing = plan.timing;
+    let terminal = Terminal::reached(scenario, &plan.trajectory);
+    let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
+    Solution {
+        schema: SCHEMA.to_owned(),
+        scenario: scenario.resolved().clone(),
+        scenario_sha256: scenario.resolved().sha256(),
+        versions: versions(),
+        status: plan.status,
+        objective: plan.objective,
+        iterations: plan.iterations,
+        constraint_violation: plan.constraint_violation,
+        terminal,
+        timing_s: Timing {
+            load: times.load.as_secs_f64(),
+            trace: timing.trace.as_secs_f64(),
+            guess: timing.guess.as_secs_f64(),
+            evaluate: timing.evaluate.as_secs_f64(),
+            linear_algebra: timing.linear_algebra.as_secs_f64(),
+            solve: timing.solve.as_secs_f64(),
+            verify: times.verify.as_secs_f64(),
+            total: 0.0,
+        },
+        verification,
+        bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
+        reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
+        history: plan.history.clone(),
+    }
+}
+
+fn versions() -> Versions {
+    let found = righting_ipopt::versions();
+    let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
+    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or_default();
+    Versions {
+        righting: build::VERSION.to_owned(),
+        ipopt: found.ipopt.to_owned(),
+        linear_solver: format!("mumps {mumps}").trim_end().to_owned(),
+    }
+}
+
+/// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
+/// that where it is, the rest is too.
+fn write(
+    folder: &OutputFolder,
+    solution: &mut Solution,
+    trajectory: &Trajectory,
+    started: Instant,
+) -> Result<ResultFiles, Failure> {
+    folder.remove_earlier_plan()?;
+    let path = |name| folder.path().join(name);
+    let mut files = ResultFiles {
+        trajectory: None,
+        solution: path(SOLUTION_FILE),
+        attitude: None,
+        joints: None,
+    };
+    if solution.status.is_acceptable() {
+        trajectory.write_csv(&path(TRAJECTORY_FILE))?;
+        files.trajectory = Some(path(TRAJECTORY_FILE));
+        let figure = |name, text: String| write_whole(folder.path(), name, text.as_bytes());
+        files.attitude = Some(figure(ATTITUDE_FILE, attitude_svg(solution, trajectory))?);
+        files.joints = Some(figure(JOINTS_FILE, joints_svg(solution, trajectory))?);
+    }
+    solution.timing_s.total = started.elapsed().as_secs_f64();
+    solution.write_json(&files.solution)?;
+    Ok(files)
+}

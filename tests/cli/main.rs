@@ -1,0 +1,10 @@
+//! The `righting` program as its users run it: exit codes, messages, files.
+
+mod bad_input;
+mod documents;
+mod machine;
+mod program;
+mod solve;
+mod streams;
+mod usage;
+mod verify;

@@ -1,0 +1,62 @@
+//! Pipes, full disks and signals.
+
+use std::fs::File;
+use std::io::Read;
+use std::process::Stdio;
+
+use serde_json::json;
+
+use crate::program::{Run, command, files_in, folder_with, small_slew};
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    for arguments in [&["schema"][..], &["solve", "scenario.json", "--out", "out"], &["--help"]] {
+        let folder = folder_with(&small_slew());
+        let mut child = command(folder.path())
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        let mut stderr = String::new();
+        let mut pipe = child.stderr.take().expect("piped");
+        pipe.read_to_string(&mut stderr).expect("readable");
+        let code = child.wait().expect("it ends").code();
+        assert_eq!((code, stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_behind_stdout_is_said() {
+    let folder = folder_with(&small_slew());
+    let full = File::options().write(true).open("/dev/full").expect("Linux has it");
+    let output = command(folder.path()).arg("schema").stdout(full).output().expect("it starts");
+    Run::from(output).assert_refused("cannot print results");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_solve_ends_cleanly() {
+    let mut long = small_slew();
+    long["horizon"] = json!({ "duration_s": 500.0, "steps": 20_000 });
+    long["solver"] = json!({ "formulation": "full", "guess": "constant", "tolerance": 1e-14 });
+    let folder = folder_with(&long);
+    let child = command(folder.path())
+        .args(["solve", "scenario.json", "--out", "out", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // The folder is made once the signal is watched for.
+    while !folder.path().join("out").exists() {
+        std::thread::yield_now();
+    }
+    let pid = rustix::process::Pid::from_child(&child);
+    rustix::process::kill_process(pid, rustix::process::Signal::INT).expect("it is running");
+    let run = Run::from(child.wait_with_output().expect("it ends"));
+    assert_eq!((run.code, run.stderr.as_str()), (130, "error: interrupted\n"));
+    assert_eq!(run.json()["status"], "interrupted");
+    assert_eq!(files_in(&folder.path().join("out")), ["solution.json"]);
+}
