@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::LANES;
 use super::isa::InstructionSet;
-use super::tape::{Instruction, Opcode, Tape};
+use super::tape::{Instruction, Opcode, Register, Tape};
 use super::workspace::Lanes;
 use crate::op::{self, Binary, Unary};
 use crate::trigonometry::{self, REDUCTION_LIMIT, sin_cos_reduced};
@@ -74,39 +74,61 @@ macro_rules! sin_cos {
 
 #[inline(always)]
 fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
-    for instruction in instructions {
-        let [a, b, c] = instruction.registers;
-        debug_assert!([a, b, c].iter().all(|&register| (register as usize) < registers.len()));
+    let count = registers.len();
+    let registers = registers.as_mut_ptr();
+    let at = |register: Register| {
+        debug_assert!((register as usize) < count);
         // SAFETY: `Tape::new` checked every register against the layout, whose size `run` compared
         // with the slice's length.
-        let read = |register: u32| unsafe { &registers.get_unchecked(register as usize).0 };
-        let (x, y) = (read(a), read(b));
-        let result = match instruction.opcode {
-            Opcode::Binary(Binary::Add) => lanes!(l => x[l] + y[l]),
-            Opcode::Binary(Binary::Sub) => lanes!(l => x[l] - y[l]),
-            Opcode::Binary(Binary::Mul) => lanes!(l => x[l] * y[l]),
-            Opcode::Binary(Binary::Div) => lanes!(l => x[l] / y[l]),
-            Opcode::Unary(Unary::Neg) => lanes!(l => -x[l]),
-            Opcode::Unary(Unary::Abs) => lanes!(l => x[l].abs()),
-            Opcode::Unary(Unary::Sqrt) => lanes!(l => x[l].sqrt()),
-            Opcode::Unary(Unary::Sin) => sin_cos!(x).0,
-            Opcode::Unary(Unary::Cos) => sin_cos!(x).1,
-            Opcode::Unary(op) => unary(op, x),
-            Opcode::Binary(op) => binary(op, x, y),
-            Opcode::Select => {
-                let z = read(c);
-                lanes!(l => op::select(x[l], y[l], z[l]))
+        unsafe { registers.add(register as usize) }
+    };
+    // Each operation stores its own result: one store after the branches would go through the stack.
+    macro_rules! store {
+        ($register:expr, $lanes:expr) => {{
+            let lanes = $lanes;
+            // SAFETY: `at` points into the slice, and no reference to it is alive.
+            unsafe { *at($register) = Lanes(lanes) }
+        }};
+    }
+    for instruction in instructions {
+        let [a, b, c] = instruction.registers;
+        let result = instruction.result;
+        // SAFETY: as in `store`.
+        let load = |register| unsafe { (*at(register)).0 };
+        match instruction.opcode {
+            Opcode::Binary(op) => {
+                let (x, y) = (load(a), load(b));
+                match op {
+                    Binary::Add => store!(result, lanes!(l => x[l] + y[l])),
+                    Binary::Sub => store!(result, lanes!(l => x[l] - y[l])),
+                    Binary::Mul => store!(result, lanes!(l => x[l] * y[l])),
+                    Binary::Div => store!(result, lanes!(l => x[l] / y[l])),
+                    op => store!(result, binary(op, &x, &y)),
+                }
             }
-            Opcode::Copy => *x,
+            Opcode::Unary(op) => {
+                let x = load(a);
+                match op {
+                    Unary::Neg => store!(result, lanes!(l => -x[l])),
+                    Unary::Abs => store!(result, lanes!(l => x[l].abs())),
+                    Unary::Sqrt => store!(result, lanes!(l => x[l].sqrt())),
+                    Unary::Sin => store!(result, sin_cos!(&x).0),
+                    Unary::Cos => store!(result, sin_cos!(&x).1),
+                    op => store!(result, unary(op, &x)),
+                }
+            }
             Opcode::SinCos => {
-                let (sine, cosine) = sin_cos!(x);
-                // SAFETY: as above.
-                unsafe { registers.get_unchecked_mut(b as usize).0 = cosine };
-                sine
+                let x = load(a);
+                let (sines, cosines) = sin_cos!(&x);
+                store!(result, sines);
+                store!(b, cosines);
             }
-        };
-        // SAFETY: as above.
-        unsafe { registers.get_unchecked_mut(instruction.result as usize).0 = result };
+            Opcode::Select => {
+                let (x, y, z) = (load(a), load(b), load(c));
+                store!(result, lanes!(l => op::select(x[l], y[l], z[l])));
+            }
+            Opcode::Copy => store!(result, load(a)),
+        }
     }
 }
 

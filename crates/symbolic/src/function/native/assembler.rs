@@ -228,3 +228,6 @@ fn base_offset(encoding: Encoding, index: usize) -> i32 {
         Encoding::Vex => 0,
     }
 }
+
+#[cfg(test)]
+mod tests;

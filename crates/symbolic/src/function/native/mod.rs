@@ -36,14 +36,16 @@ enum Part {
 }
 
 impl Native {
-    /// `None` if the machine lacks the instructions or forbids executable memory.
+    /// `None` if the machine lacks the instructions or forbids executable memory, or if the register
+    /// file is beyond the reach of 32-bit offsets.
     pub(super) fn new(tape: &Tape, instruction_set: InstructionSet) -> Option<Self> {
         let encoding = match instruction_set {
             InstructionSet::Avx512 => Encoding::Evex,
             InstructionSet::Avx2 => Encoding::Vex,
             InstructionSet::Portable => return None,
         };
-        if !instruction_set.is_available() {
+        let bytes = tape.layout.registers() * size_of::<Lanes>();
+        if !instruction_set.is_available() || i32::try_from(bytes).is_err() {
             return None;
         }
         let uses = NextUses::of(tape);
