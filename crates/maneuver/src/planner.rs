@@ -3,12 +3,12 @@
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, Guess, Iteration, MultipleShooting, OcpError, Options, Rung, Solution,
-    StageFunctions, Start, refine,
+    Control, Grid, Guess, Iteration, LinearSolver, MultipleShooting, OcpError, Options, Rung,
+    Settings, Solution, StageFunctions, Start, UsedLinearSolver, refine,
 };
 
 use crate::error::ShapeError;
-use crate::file::{Guess as ScenarioGuess, NamedGuess, RandomStarts};
+use crate::file::{self, Guess as ScenarioGuess, NamedGuess, RandomStarts};
 use crate::formulation::{Coordinates, FormulatedManeuver};
 use crate::scenario::{MAX_STARTS, Scenario};
 use crate::solution::{IterationRecord, Status};
@@ -37,6 +37,8 @@ pub struct Plan {
     pub history: Vec<IterationRecord>,
     /// Every solve on the way, in order: the coarse starts, then the grids up to the asked one.
     pub rungs: Vec<Rung>,
+    /// What factorised the linear systems of the last solve.
+    pub linear_solver: UsedLinearSolver,
     /// Where the time went.
     pub timing: PlanTiming,
 }
@@ -116,6 +118,7 @@ pub fn plan(
         constraint_violation: solution.constraint_violation,
         history: solution.history.iter().map(record).collect(),
         rungs: search.rungs,
+        linear_solver: solution.linear_solver,
         timing,
     })
 }
@@ -133,12 +136,19 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn options(&self) -> Options {
-        let settings = self.scenario.solver();
-        Options {
-            tolerance: settings.tolerance,
-            max_iterations: settings.max_iterations as u32,
-            ..Options::default()
+    fn settings(&self) -> Settings {
+        let solver = self.scenario.solver();
+        Settings {
+            ipopt: Options {
+                tolerance: solver.tolerance,
+                max_iterations: solver.max_iterations as u32,
+                ..Options::default()
+            },
+            linear_solver: match solver.linear_solver {
+                file::LinearSolver::Auto => LinearSolver::Auto,
+                file::LinearSolver::Mumps => LinearSolver::Mumps,
+                file::LinearSolver::Stage => LinearSolver::Stage,
+            },
         }
     }
 
@@ -167,8 +177,8 @@ impl Search<'_> {
     fn solve_on(&mut self, steps: usize, guess: Guess) -> Result<Solution, OcpError> {
         let grid = self.grid.with_steps(steps)?;
         let mut program = MultipleShooting::new(self.functions, grid, &self.formulated.initial)?;
-        let options = self.options();
-        let solution = program.solve(&Start::Guess(guess), &options, |iteration| {
+        let settings = self.settings();
+        let solution = program.solve(&Start::Guess(guess), &settings, |iteration| {
             (self.on_iteration)(&record(iteration))
         })?;
         self.note(Rung { steps, status: solution.status, iterations: solution.iterations() });
@@ -206,14 +216,14 @@ impl Search<'_> {
             if coarse.controls.len() == steps {
                 return Ok(coarse);
             }
-            let options = self.options();
+            let settings = self.settings();
             let (solution, rungs) = refine(
                 self.functions,
                 self.grid,
                 &[],
                 &self.formulated.initial,
                 coarse.point,
-                &options,
+                &settings,
                 |iteration| (self.on_iteration)(&record(iteration)),
             )?;
             rungs.into_iter().for_each(|rung| self.note(rung));

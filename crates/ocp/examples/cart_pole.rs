@@ -42,7 +42,7 @@ fn main() -> Result<(), OcpError> {
     }
     let mut program = MultipleShooting::new(&functions, Grid::new(DURATION_S, STEPS)?, &start)?;
     let solution =
-        program.solve(&Start::Guess(guess), &Options::default(), |_| Control::Continue)?;
+        program.solve(&Start::Guess(guess), &Settings::default(), |_| Control::Continue)?;
 
     println!("{:?}, effort {:.3} N² s", solution.status, solution.objective);
     for (node, state) in solution.states.rows().enumerate().step_by(10) {

@@ -23,7 +23,7 @@
 //! let grid = Grid::new(1.0, 50)?;
 //! let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0])?;
 //! let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, 50));
-//! let solution = program.solve(&start, &Options::default(), |_| Control::Continue)?;
+//! let solution = program.solve(&start, &Settings::default(), |_| Control::Continue)?;
 //! assert_eq!(solution.status, Status::Solved);
 //! assert!((solution.objective - 12.0).abs() < 0.01);
 //! # Ok::<(), OcpError>(())
@@ -34,6 +34,7 @@ mod block;
 mod derivative_check;
 mod error;
 mod grid;
+pub mod kkt;
 mod layout;
 mod matrix;
 mod nlp;
@@ -59,9 +60,10 @@ pub use layout::{Dimensions, Layout};
 pub use nlp::MultipleShooting;
 pub use point::Point;
 pub use problem::{ControlProblem, Interval};
-pub use refine::{Rung, refine, warm_start_options};
+pub use refine::{Rung, refine, warm_start_settings};
 pub use samples::Samples;
 pub use solution::Solution;
+pub use solve::{LinearSolver, Settings, UsedLinearSolver};
 pub use stage::StageFunctions;
 pub use start::{Guess, Start};
 

@@ -5,6 +5,7 @@ use crate::grid::Grid;
 use crate::nlp::MultipleShooting;
 use crate::point::Point;
 use crate::solution::Solution;
+use crate::solve::Settings;
 use crate::stage::StageFunctions;
 use crate::start::Start;
 
@@ -14,17 +15,18 @@ const WARM_PUSH: f64 = 1e-9;
 /// Barrier parameter of a warm start: nearly that of a solved problem.
 const WARM_BARRIER: f64 = 1e-8;
 
-/// Options for a start that is nearly optimal.
-pub fn warm_start_options(options: &Options) -> Options {
-    Options {
+/// Settings for a start that is nearly optimal.
+pub fn warm_start_settings(settings: &Settings) -> Settings {
+    let ipopt = Options {
         mu_init: WARM_BARRIER,
         warm_start_bound_push: WARM_PUSH,
         warm_start_bound_frac: WARM_PUSH,
         warm_start_slack_bound_push: WARM_PUSH,
         warm_start_slack_bound_frac: WARM_PUSH,
         warm_start_mult_bound_push: WARM_PUSH,
-        ..options.clone()
-    }
+        ..settings.ipopt.clone()
+    };
+    Settings { ipopt, ..*settings }
 }
 
 /// One solve on the way from a coarse grid to the asked one.
@@ -50,15 +52,15 @@ pub fn refine(
     between: &[usize],
     initial: &[f64],
     mut point: Point,
-    options: &Options,
+    settings: &Settings,
     mut on_iteration: impl FnMut(&Iteration) -> Control,
 ) -> Result<(Solution, Vec<Rung>), OcpError> {
-    let options = warm_start_options(options);
+    let settings = warm_start_settings(settings);
     let mut rungs = Vec::with_capacity(between.len() + 1);
     let mut climb = |steps: usize, point: Point| -> Result<Solution, OcpError> {
         let mut program = MultipleShooting::new(functions, grid.with_steps(steps)?, initial)?;
         let start = Start::Warm(point.resampled(program.initial_state(), steps));
-        let solution = program.solve(&start, &options, &mut on_iteration)?;
+        let solution = program.solve(&start, &settings, &mut on_iteration)?;
         rungs.push(Rung { steps, status: solution.status, iterations: solution.iterations() });
         Ok(solution)
     };

@@ -2,6 +2,7 @@ use righting_ipopt::{Iteration, Status, Timing};
 
 use crate::point::Point;
 use crate::samples::Samples;
+use crate::solve::UsedLinearSolver;
 
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]
@@ -14,6 +15,8 @@ pub struct Solution {
     pub constraint_violation: f64,
     /// One entry per iteration, the start included.
     pub history: Vec<Iteration>,
+    /// What factorised the linear systems.
+    pub linear_solver: UsedLinearSolver,
     /// All states of the problem at the nodes 0…N.
     pub states: Samples,
     /// The controls of the steps 0…N−1.

@@ -1,12 +1,46 @@
-use righting_ipopt::{Control, Iteration, Multipliers, Options};
+use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
 
 use crate::error::OcpError;
+use crate::kkt::{NodeDims, StageDims, StageKkt};
 use crate::nlp::MultipleShooting;
 use crate::point::Point;
+use crate::problem::Interval;
 use crate::rk4::{NODE, STAGES, WEIGHT};
 use crate::samples::Samples;
 use crate::solution::Solution;
 use crate::start::Start;
+
+/// What factorises Ipopt's linear systems.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LinearSolver {
+    /// The stage solver, and MUMPS where it does not succeed.
+    #[default]
+    Auto,
+    /// MUMPS, the general sparse solver that comes with Ipopt.
+    Mumps,
+    /// The stage solver alone.
+    Stage,
+}
+
+/// What factorised the linear systems of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UsedLinearSolver {
+    /// MUMPS.
+    Mumps,
+    /// The stage solver.
+    Stage,
+    /// The stage solver did not succeed and MUMPS solved the problem again from its start.
+    MumpsAfterStage,
+}
+
+/// How to solve.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Ipopt's options.
+    pub ipopt: Options,
+    /// What factorises its linear systems.
+    pub linear_solver: LinearSolver,
+}
 
 impl MultipleShooting<'_> {
     /// Solves the program from `start`. `on_iteration` sees every iteration and may stop the solve.
@@ -15,19 +49,60 @@ impl MultipleShooting<'_> {
     ///
     /// # Errors
     /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when the start does not fit,
-    /// [`OcpError::Solve`] when Ipopt refuses the problem or an option.
+    /// [`OcpError::Solve`] when Ipopt refuses the problem, an option or, without
+    /// [`LinearSolver::Auto`], the linear solver.
     pub fn solve(
         &mut self,
         start: &Start,
-        options: &Options,
+        settings: &Settings,
         mut on_iteration: impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
         let start = self.ipopt_start(start)?;
+        if settings.linear_solver == LinearSolver::Mumps {
+            return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
+        }
         let mut history = Vec::new();
-        let solution = righting_ipopt::solve(self, options, &start, |iteration| {
+        let mut stage = StageKkt::new(&self.stage_dims());
+        let outcome =
+            righting_ipopt::solve_with(self, &settings.ipopt, &start, &mut stage, |iteration| {
+                history.push(*iteration);
+                on_iteration(iteration)
+            });
+        let retry = settings.linear_solver == LinearSolver::Auto;
+        let stage_solution = match outcome {
+            Ok(solution) => self.solution(solution, history, UsedLinearSolver::Stage),
+            Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
+                return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
+            }
+            Err(error) => return Err(error.into()),
+        };
+        if !(retry && may_be_the_linear_solver(stage_solution.status)) {
+            return Ok(stage_solution);
+        }
+        let again = self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?;
+        Ok(Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again })
+    }
+
+    fn solve_with_mumps(
+        &mut self,
+        start: &righting_ipopt::Start,
+        options: &Options,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Result<Solution, OcpError> {
+        let mut history = Vec::new();
+        let solution = righting_ipopt::solve(self, options, start, |iteration| {
             history.push(*iteration);
             on_iteration(iteration)
         })?;
+        Ok(self.solution(solution, history, UsedLinearSolver::Mumps))
+    }
+
+    fn solution(
+        &self,
+        solution: righting_ipopt::Solution,
+        history: Vec<Iteration>,
+        linear_solver: UsedLinearSolver,
+    ) -> Solution {
         let point = Point {
             layout: self.layout(),
             z: solution.x,
@@ -36,16 +111,43 @@ impl MultipleShooting<'_> {
             upper: solution.multipliers.upper,
         };
         let (states, controls) = self.trajectory(&point);
-        Ok(Solution {
+        Solution {
             status: solution.status,
             objective: solution.objective,
             constraint_violation: solution.constraint_violation,
             history,
+            linear_solver,
             states,
             controls,
             point,
             timing: solution.timing,
-        })
+        }
+    }
+
+    /// What the stage solver needs to know: a constraint held between equal bounds is an equality
+    /// to Ipopt and has no slack.
+    fn stage_dims(&self) -> StageDims {
+        let (functions, dimensions) = (self.functions(), self.layout().dimensions());
+        let equalities = |bounds: &Interval| {
+            bounds.lower.iter().zip(&bounds.upper).filter(|(lower, upper)| lower == upper).count()
+        };
+        let path = equalities(&functions.path_bounds);
+        let terminal = equalities(&functions.terminal_bounds);
+        let inner = NodeDims {
+            states: dimensions.states,
+            controls: dimensions.controls,
+            equalities: path,
+            inequalities: dimensions.path - path,
+        };
+        let mut nodes = vec![inner; dimensions.steps + 1];
+        nodes[0] = NodeDims { controls: dimensions.controls, ..NodeDims::default() };
+        nodes[dimensions.steps] = NodeDims {
+            controls: 0,
+            equalities: path + terminal,
+            inequalities: inner.inequalities + dimensions.terminal - terminal,
+            ..inner
+        };
+        StageDims::new(nodes)
     }
 
     fn ipopt_start(&self, start: &Start) -> Result<righting_ipopt::Start, OcpError> {
@@ -90,6 +192,19 @@ impl MultipleShooting<'_> {
         }
         (states, controls)
     }
+}
+
+/// Whether a solve that ended so might succeed with another factorisation.
+fn may_be_the_linear_solver(status: Status) -> bool {
+    !status.is_success()
+        && !matches!(
+            status,
+            Status::UserStop
+                | Status::IterationLimit
+                | Status::CpuTimeLimit
+                | Status::WallTimeLimit
+                | Status::TooFewDegreesOfFreedom
+        )
 }
 
 /// One integration step of all states.
