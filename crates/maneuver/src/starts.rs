@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn rates_and_accelerations_are_the_derivatives_of_the_angle() {
         let motion = Motion { amplitude: 0.7, back: 0.3, duration_s: 5.0 };
-        let step = 1e-4;
+        let step = 1e-5;
         for s in [0.0, 0.1, 0.5, 0.83, 1.0] {
             let difference =
                 |f: &dyn Fn(f64) -> f64| (f(s + step) - f(s - step)) / (2.0 * step * 5.0);

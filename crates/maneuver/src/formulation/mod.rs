@@ -15,7 +15,6 @@ mod tests;
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State, System};
 use righting_ocp::{ControlProblem, Interval};
 use righting_scalar::Scalar;
@@ -135,13 +134,11 @@ impl Clearances {
     }
 
     fn all_squared_distances<T: Scalar>(&self, q: &[T]) -> Vec<T> {
-        let segments = self.system.kinematics(q).segments;
-        let body = Vector3::from_element(T::from(0.0));
         let to_body = self.collision.body_links.iter();
         let between = self.collision.link_pairs.iter();
         to_body
-            .map(|&link| segments[link].squared_distance_to_point(&body))
-            .chain(between.map(|&(a, b)| segments[a].squared_distance_to_segment(&segments[b])))
+            .map(|&link| self.system.squared_distance_to_base(q, link))
+            .chain(between.map(|&(a, b)| self.system.squared_distance_between(q, a, b)))
             .collect()
     }
 
