@@ -17,7 +17,7 @@ const NONE: u32 = u32::MAX;
 type GuardId = u32;
 
 /// One taken side of a branch, inside an outer guard.
-#[derive(Copy, Clone, PartialEq)]
+#[derive(Copy, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Guard {
     outer: GuardId,
     condition: NodeId,
@@ -32,6 +32,7 @@ struct ReverseSweep<'a> {
     /// Adjoints that hold under a guard only.
     guarded: BTreeMap<Position, Vec<(GuardId, NodeId)>>,
     guards: Vec<Guard>,
+    guard_ids: BTreeMap<Guard, GuardId>,
     /// By position: whether it depends on any of the inputs.
     active: Vec<bool>,
 }
@@ -61,6 +62,7 @@ pub(crate) fn adjoints(
         plain: vec![NONE; graph.len()],
         guarded: BTreeMap::new(),
         guards: Vec::new(),
+        guard_ids: BTreeMap::new(),
         active,
     };
     let mut totals = vec![None; graph.len()];
@@ -68,11 +70,16 @@ pub(crate) fn adjoints(
         if graph.id(position) == output {
             sweep.add(position, NONE, one);
         }
-        if is_input[position as usize] {
-            totals[position as usize] = sweep.total(position);
+        if !sweep.active[position as usize] {
+            continue;
         }
-        if sweep.active[position as usize] {
-            sweep.visit(position);
+        if let Some((guard, adjoint)) = sweep.collect(position) {
+            if is_input[position as usize] {
+                let total = sweep.selected(guard, adjoint);
+                totals[position as usize] =
+                    Some(total).filter(|&total| sweep.arena.constant_value(total) != Some(0.0));
+            }
+            sweep.propagate(position, guard, adjoint);
         }
     }
     inputs.into_iter().map(|input| totals[input? as usize]).collect()
@@ -97,11 +104,10 @@ impl ReverseSweep<'_> {
     }
 
     fn guard(&mut self, guard: Guard) -> GuardId {
-        let known = self.guards.iter().position(|&other| other == guard);
-        known.unwrap_or_else(|| {
+        *self.guard_ids.entry(guard).or_insert_with(|| {
             self.guards.push(guard);
-            self.guards.len() - 1
-        }) as GuardId
+            self.guards.len() as GuardId - 1
+        })
     }
 
     /// The value where all of the guard's branches are taken, else zero.
@@ -141,44 +147,28 @@ impl ReverseSweep<'_> {
         }
     }
 
-    /// All adjoints of a finished node with their guards; a single unguarded one where the node is
-    /// used without condition.
-    fn collect(&mut self, position: Position) -> Vec<(GuardId, NodeId)> {
+    /// The adjoint of a node whose users are all done. It is unguarded if the node is used without
+    /// condition; several guards become one that holds where any of them does.
+    fn collect(&mut self, position: Position) -> Option<(GuardId, NodeId)> {
         let plain = self.plain[position as usize];
-        let mut entries = self.guarded.remove(&position).unwrap_or_default();
+        let unguarded = (plain != NONE).then_some((NONE, plain));
+        let Some(mut entries) = self.guarded.remove(&position) else { return unguarded };
         self.join_opposite_sides(&mut entries);
-        if plain != NONE {
-            entries.insert(0, (NONE, plain));
+        entries.splice(..0, unguarded);
+        if entries.len() <= 1 {
+            return entries.pop();
         }
-        if entries.iter().any(|&(guard, _)| guard == NONE) {
-            let mut sum = None;
-            for (guard, value) in entries {
-                let value = self.selected(guard, value);
-                sum = Some(sum.map_or(value, |sum| self.arena.add(sum, value)));
-            }
-            return sum.map(|sum| (NONE, sum)).into_iter().collect();
-        }
-        entries
-    }
-
-    fn total(&mut self, position: Position) -> Option<NodeId> {
-        let plain = self.plain[position as usize];
-        let mut sum = (plain != NONE).then_some(plain);
-        for (guard, value) in self.guarded.get(&position).cloned().unwrap_or_default() {
+        let always = entries.iter().any(|&(guard, _)| guard == NONE);
+        let (zero, one) = (self.arena.constant(0.0), self.arena.constant(1.0));
+        let (mut sum, mut any) = (zero, zero);
+        for (guard, value) in entries {
             let value = self.selected(guard, value);
-            sum = Some(sum.map_or(value, |sum| self.arena.add(sum, value)));
+            sum = self.arena.add(sum, value);
+            let held = self.selected(guard, one);
+            any = self.arena.select(held, one, any);
         }
-        sum.filter(|&sum| self.arena.constant_value(sum) != Some(0.0))
-    }
-
-    fn visit(&mut self, position: Position) {
-        if self.guarded.contains_key(&position) {
-            for (guard, adjoint) in self.collect(position) {
-                self.propagate(position, guard, adjoint);
-            }
-        } else if self.plain[position as usize] != NONE {
-            self.propagate(position, NONE, self.plain[position as usize]);
-        }
+        let any = Guard { outer: NONE, condition: any, positive: true };
+        Some((if always { NONE } else { self.guard(any) }, sum))
     }
 
     fn propagate(&mut self, position: Position, guard: GuardId, adjoint: NodeId) {

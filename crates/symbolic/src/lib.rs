@@ -12,9 +12,10 @@
 //! ```
 //!
 //! A [`Function`] sorts the graph below its outputs into a list of instructions over one register
-//! file and evaluates a block of [`LANES`] points side by side. It allocates nothing, and every path
-//! (portable, AVX2, AVX-512, one point or a batch) rounds every operation alike: results agree bit
-//! for bit.
+//! file and evaluates a block of [`LANES`] points side by side, without allocating. On x86-64 it is
+//! machine code made when the function is built (AVX-512 or AVX2, whichever the machine has), else
+//! an interpreter. Every [`Backend`], one point or a batch, rounds every operation alike: results
+//! agree bit for bit.
 //!
 //! ```
 //! use num_dual::DualNum;

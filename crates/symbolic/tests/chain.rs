@@ -89,6 +89,42 @@ fn derivatives_agree_with_dual_numbers() {
     }
 }
 
+#[test]
+fn the_jacobian_agrees_with_finite_differences() {
+    let outputs = evaluate(&chain(), 1);
+    let (state, momentum) = (numbers(STATES, 0.1), numbers(3, 0.1));
+    let jacobian = chain().output_ports()[1].sparsity().cloned().unwrap();
+    let rate =
+        |x: &[f64]| model::attitude_rate(&x[..4], &x[4..4 + JOINTS], &x[4 + JOINTS..], &momentum);
+    for col in 0..STATES {
+        let step = 1e-5;
+        let mut moved = [state.clone(), state.clone()];
+        moved[0][col] += step;
+        moved[1][col] -= step;
+        let [ahead, behind] = moved.map(|x| rate(&x));
+        for row in 0..4 {
+            let reference = (ahead[row] - behind[row]) / (2.0 * step);
+            let ours = jacobian.position(row, col).map_or(0.0, |k| outputs[1][k]);
+            assert!((ours - reference).abs() <= 1e-8, "{row} {col}: {ours} vs {reference}");
+        }
+    }
+}
+
+#[test]
+fn threads_share_a_function() {
+    fn shared<T: Send + Sync>(_: &T) {}
+    let function = chain();
+    shared(&function);
+    let reference = evaluate(&function, 20);
+    std::thread::scope(|threads| {
+        let evaluations: Vec<_> =
+            (0..4).map(|_| threads.spawn(|| evaluate(&function.clone(), 20))).collect();
+        for evaluation in evaluations {
+            assert_eq!(evaluation.join().unwrap(), reference);
+        }
+    });
+}
+
 /// Operands far beyond the reach of short displacements.
 #[test]
 fn thousands_of_ports_and_live_values() {

@@ -1,9 +1,9 @@
 //! Every operation's value, first and second derivative, three ways: by the graph's sweeps, by dual
 //! numbers over expressions, and by num-dual on plain numbers.
 
-use num_dual::{Dual2, Dual2_64};
+use num_dual::{Dual2, Dual2_64, Dual64};
 use righting_scalar::Scalar;
-use righting_symbolic::{Expr, Function, gradient, hessian_lower, trace};
+use righting_symbolic::{Expr, Function, Graph, gradient, hessian_lower, trace};
 
 /// Values agree to a few roundings: the formulas differ, the functions do not.
 fn assert_close(name: &str, x: f64, ours: f64, reference: f64) {
@@ -166,5 +166,40 @@ fn the_side_not_taken_spoils_no_derivative() {
         for (ours, reference) in ours.into_iter().zip([reference.re, reference.v1, reference.v2]) {
             assert_close("guarded", x, ours, reference);
         }
+    }
+}
+
+/// A value that many branches use is differentiated once, whatever the number of branches.
+#[test]
+fn branches_that_share_a_value_share_its_adjoint() {
+    fn branches<T: Scalar>(x: T, count: i32) -> T {
+        let shared = (0..20).fold(x, |value, _| (value * value + 1.0).ln() + x.recip());
+        (0..count).fold(T::from(0.0), |sum, k| {
+            let taken = shared * T::from(f64::from(k));
+            sum + T::select_positive(x - f64::from(k), taken, T::from(0.0))
+        })
+    }
+    let nodes = |count| {
+        trace(|| {
+            let x = Expr::symbol("x");
+            let value = branches(x, count);
+            let before = Graph::node_count();
+            gradient(value, &[x]);
+            Graph::node_count() - before
+        })
+    };
+    let (few, many) = (nodes(2), nodes(40));
+    assert!(many <= few + 5 * 40, "{few} nodes for 2 branches, {many} for 40");
+
+    let function = trace(|| {
+        let x = Expr::symbol("x");
+        let slope = gradient(branches(x, 5), &[x]);
+        Function::builder("branches").input("x", &[x]).output("slope", &slope).build().unwrap()
+    });
+    for x in [-1.0, 0.0, 0.5, 2.5, 7.0] {
+        let mut slope = [0.0];
+        function.evaluate(&mut function.workspace(), &[&[x]], &mut [&mut slope]);
+        let reference = branches(Dual64::new(x, 1.0), 5).eps;
+        assert_close("branches", x, slope[0], reference);
     }
 }
