@@ -11,7 +11,7 @@ use righting_maneuver::{
     Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory, Verification,
     Versions, plan, verify,
 };
-use righting_ocp::Control;
+use righting_ocp::{Control, UsedLinearSolver};
 use righting_report::{attitude_svg, joints_svg, summary, write_whole};
 use serde::Serialize;
 
@@ -106,7 +106,7 @@ fn assemble(
         schema: SCHEMA.to_owned(),
         scenario: scenario.resolved().clone(),
         scenario_sha256: scenario.resolved().sha256(),
-        versions: versions(),
+        versions: versions(plan.linear_solver),
         status: plan.status,
         objective: plan.objective,
         iterations: plan.iterations,
@@ -129,14 +129,18 @@ fn assemble(
     }
 }
 
-fn versions() -> Versions {
+fn versions(used: UsedLinearSolver) -> Versions {
     let found = righting_ipopt::versions();
     let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
-    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or_default();
+    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
     Versions {
         righting: build::VERSION.to_owned(),
         ipopt: found.ipopt.to_owned(),
-        linear_solver: format!("mumps {mumps}").trim_end().to_owned(),
+        linear_solver: match used {
+            UsedLinearSolver::Stage => "stage".to_owned(),
+            UsedLinearSolver::Mumps => format!("mumps {mumps}"),
+            UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),
+        },
     }
 }
 

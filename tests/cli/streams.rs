@@ -39,24 +39,26 @@ fn a_full_disk_behind_stdout_is_said() {
 #[test]
 #[cfg(unix)]
 fn an_interrupted_solve_ends_cleanly() {
-    let mut long = small_slew();
-    long["horizon"] = json!({ "duration_s": 500.0, "steps": 20_000 });
-    long["solver"] = json!({ "formulation": "full", "guess": "constant", "tolerance": 1e-14 });
-    let folder = folder_with(&long);
-    let child = command(folder.path())
-        .args(["solve", "scenario.json", "--out", "out", "--json"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    // The folder is made once the signal is watched for.
-    while !folder.path().join("out").exists() {
-        std::thread::yield_now();
+    for guess in ["constant", "auto"] {
+        let mut long = small_slew();
+        long["horizon"] = json!({ "duration_s": 500.0, "steps": 20_000 });
+        long["solver"] = json!({ "formulation": "full", "guess": guess, "tolerance": 1e-14 });
+        let folder = folder_with(&long);
+        let child = command(folder.path())
+            .args(["solve", "scenario.json", "--out", "out", "--json"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        // The folder is made once the signal is watched for.
+        while !folder.path().join("out").exists() {
+            std::thread::yield_now();
+        }
+        let pid = rustix::process::Pid::from_child(&child);
+        rustix::process::kill_process(pid, rustix::process::Signal::INT).expect("it is running");
+        let run = Run::from(child.wait_with_output().expect("it ends"));
+        assert_eq!((run.code, run.stderr.as_str()), (130, "error: interrupted\n"), "{guess}");
+        assert_eq!(run.json()["status"], "interrupted");
+        assert_eq!(files_in(&folder.path().join("out")), ["solution.json"]);
     }
-    let pid = rustix::process::Pid::from_child(&child);
-    rustix::process::kill_process(pid, rustix::process::Signal::INT).expect("it is running");
-    let run = Run::from(child.wait_with_output().expect("it ends"));
-    assert_eq!((run.code, run.stderr.as_str()), (130, "error: interrupted\n"));
-    assert_eq!(run.json()["status"], "interrupted");
-    assert_eq!(files_in(&folder.path().join("out")), ["solution.json"]);
 }

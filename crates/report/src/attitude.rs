@@ -113,8 +113,9 @@ fn rate_panel(nodes: &[Node]) -> Panel {
 fn spin_panel(nodes: &[Node], bound_deg_s: Option<f64>) -> Panel {
     let spin = spin_deg_s(nodes);
     let (first, last) = (spin[0], spin[spin.len() - 1]);
-    let bound =
-        bound_deg_s.map(|b| format!(", dashed: least possible {}", short(b))).unwrap_or_default();
+    let bound = bound_deg_s
+        .map(|b| format!(", dashed: least with the arm at rest, {}", short(b)))
+        .unwrap_or_default();
     Panel {
         heading: "Magnitude of the angular rate".to_owned(),
         axis_label: "Rate [deg/s]",

@@ -106,7 +106,7 @@ fn reached(solution: &Solution) -> String {
                 .unwrap_or_default();
             let bound = solution
                 .bound_deg_s
-                .map(|bound| format!(" (no plan gets below {} °/s)", short(bound)))
+                .map(|bound| format!(" (at least {} °/s with the arm at rest)", short(bound)))
                 .unwrap_or_default();
             format!("base {rate} °/s{reduction}{bound}, joints {joints} °/s")
         }

@@ -68,7 +68,7 @@ fn a_slew_shows_its_target_and_a_detumble_its_bound() {
     let (solution, trajectory) = common::result("detumble", 4, 600);
     let svg = attitude_svg(&solution, &trajectory);
     assert_eq!(count(&svg, "path", "stroke-dasharray=\"6 4\""), 1);
-    assert!(texts(&svg).iter().any(|text| text.ends_with("least possible 9.22")));
+    assert!(texts(&svg).iter().any(|text| text.ends_with("least with the arm at rest, 9.22")));
 }
 
 #[test]
