@@ -124,7 +124,7 @@ impl de::Error for DecodeError {
 fn phrase(expected: &str) -> String {
     match expected {
         "f64" => "a number".to_owned(),
-        "u64" => "a whole number from 0".to_owned(),
+        "u64" | "usize" => "a whole number from 0".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "an array".to_owned(),
         _ => expected.to_owned(),

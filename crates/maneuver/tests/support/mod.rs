@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod json_schema;
+
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
