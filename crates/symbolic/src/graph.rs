@@ -71,6 +71,9 @@ pub(crate) struct Arena {
     symbol_names: Vec<String>,
 }
 
+/// Room for a model's derivatives before the first reallocation.
+const EXPECTED_NODES: usize = 1 << 13;
+
 /// Source of arena ids: a handle of one scope must never fit another, on any thread.
 static NEXT_ARENA: AtomicU32 = AtomicU32::new(1);
 
@@ -82,8 +85,8 @@ impl Arena {
     fn new() -> Self {
         Arena {
             id: NEXT_ARENA.fetch_add(1, Ordering::Relaxed),
-            nodes: Vec::new(),
-            table: HashTable::new(),
+            nodes: Vec::with_capacity(EXPECTED_NODES),
+            table: HashTable::with_capacity(EXPECTED_NODES),
             symbol_names: Vec::new(),
         }
     }

@@ -55,13 +55,17 @@ pub(super) fn compile(program: &Program) -> Tape {
         if registers.is_written(id) {
             continue;
         }
-        let instruction = match partners.get(&id) {
+        let partners = match node {
+            Node::Unary(Unary::Sin | Unary::Cos, _) => partners.get(&id),
+            _ => None,
+        };
+        let instruction = match partners {
             Some(&(sine, cosine)) => {
                 let (result, second) = (registers.write(sine), registers.write(cosine));
                 let registers = [sources[0], second, 0];
                 Instruction { opcode: Opcode::SinCos, result, registers }
             }
-            _ => {
+            None => {
                 let opcode = opcode(node).expect("only operations are scheduled");
                 Instruction { opcode, result: registers.write(id), registers: sources }
             }

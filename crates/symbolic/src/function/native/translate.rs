@@ -34,14 +34,20 @@ pub(super) struct Translator<'a> {
 }
 
 impl<'a> Translator<'a> {
-    pub(super) fn new(tape: &'a Tape, uses: &'a NextUses, encoding: Encoding) -> Self {
+    /// For about `count` instructions.
+    pub(super) fn new(
+        tape: &'a Tape,
+        uses: &'a NextUses,
+        encoding: Encoding,
+        count: usize,
+    ) -> Self {
         let registers = tape.layout.registers();
         let reach = registers * size_of::<f64>() * LANES;
         Translator {
             tape,
             uses,
             vectors: encoding.registers(),
-            assembler: Assembler::new(encoding, reach, 10 * tape.instructions.len()),
+            assembler: Assembler::new(encoding, reach, TYPICAL_BYTES * count),
             cache: Cache::new(encoding.registers(), registers),
         }
     }
@@ -208,6 +214,9 @@ impl<'a> Translator<'a> {
         }
     }
 }
+
+/// Machine code for one instruction, loads and stores included.
+const TYPICAL_BYTES: usize = 10;
 
 /// Byte offset of a tape register in memory.
 fn offset(register: Register) -> i32 {
