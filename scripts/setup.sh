@@ -52,11 +52,16 @@ else
 fi
 
 say "installing$packages"
-quiet="DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=120"
-# shellcheck disable=SC2086  # lists of words
-$as_root $quiet update >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt_get() {
+    # shellcheck disable=SC2086  # a list of words
+    $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=120 "$@" \
+        >"$log" 2>&1 || { cat "$log" >&2; say "error: apt-get $* failed"; exit 1; }
+}
+apt_get update
 # shellcheck disable=SC2086
-$as_root $quiet install -y --no-install-recommends $packages >&2
+apt_get install -y --no-install-recommends $packages
 
 packages=$(missing "${1:-}")
 if [ -n "$packages" ]; then
