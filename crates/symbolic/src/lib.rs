@@ -57,6 +57,8 @@
 //! both sides and keeps one: the other reaches neither the value nor any derivative, even if it is
 //! infinite.
 
+#![deny(unsafe_code)]
+
 mod adjoint;
 mod arithmetic;
 mod derivative;

@@ -1,5 +1,6 @@
 //! Runs instructions of a tape over one block of lanes: the path for machines without machine code
 //! of our own, and the reference for those that have it.
+#![expect(unsafe_code, reason = "registers are checked once, when the tape is made")]
 
 use std::ops::Range;
 

@@ -1,4 +1,5 @@
 //! The memory of one evaluation.
+#![expect(unsafe_code, reason = "registers are read as plain numbers")]
 
 use std::sync::Arc;
 

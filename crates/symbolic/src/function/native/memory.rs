@@ -1,4 +1,5 @@
 //! Executable memory.
+#![expect(unsafe_code, reason = "calls generated code")]
 
 use memmap2::{Mmap, MmapMut};
 
