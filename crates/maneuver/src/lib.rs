@@ -1,4 +1,42 @@
 //! Slews and detumbles of free-floating spacecraft.
+//!
+//! A base with an arm of j revolute joints floats free: its momentum never changes. Moving the arm
+//! turns the base, and the way the arm takes decides by how much. Planned is the cheapest way,
+//!
+//! ```text
+//! min  Σ w_u ‖u_k‖² + ‖e_N‖²_Q        u = q̈ held over each of N intervals
+//! s.t. the motion follows from u;  joint angles, rates and accelerations within their limits;
+//!      links keep clear of the base and of each other,
+//! ```
+//!
+//! where e_N is what the end misses of the goal: attitude and rest for a slew, rest as far as
+//! momentum lets it for a detumble.
+//!
+//! A [`Scenario`] is read from JSON and cannot be wrong once it exists; [`plan`] makes a
+//! [`Trajectory`] of it; [`verify`] integrates that trajectory's controls again with other means and
+//! says whether it does what was asked.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use righting_maneuver::{Scenario, Terminal, plan, verify};
+//! use righting_ocp::Control;
+//!
+//! let file = Path::new("../../scenarios/slew_2dof.json");
+//! let scenario = Scenario::read(file)?;
+//! let plan = plan(&scenario, &mut |_| Control::Continue)?;
+//! assert!(verify(&scenario, &plan.trajectory).passed);
+//! assert!(Terminal::reached(&scenario, &plan.trajectory).attitude_error <= 1e-3);
+//!
+//! // A variant is checked like a file.
+//! let mut changed = scenario.resolved().clone();
+//! changed.horizon.steps = 0.0;
+//! let refused = Scenario::from_file(changed, file).unwrap_err();
+//! assert!(refused.to_string().ends_with(
+//!     "horizon.steps: 0 is not allowed: a whole number from 1 to 100000"
+//! ));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod collision;
