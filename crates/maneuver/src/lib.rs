@@ -52,6 +52,7 @@ mod outcome;
 pub mod planner;
 pub mod scenario;
 pub mod schema;
+mod search;
 pub mod solution;
 mod starts;
 pub mod system_description;

@@ -1,4 +1,4 @@
-use righting_ipopt::{Control, Iteration, Options, Status};
+use righting_ipopt::{Control, Iteration, MultiplierInitialization, Options, Status};
 
 use crate::error::OcpError;
 use crate::grid::Grid;
@@ -15,6 +15,10 @@ const WARM_PUSH: f64 = 1e-9;
 /// Barrier parameter of a warm start: nearly that of a solved problem.
 const WARM_BARRIER: f64 = 1e-8;
 
+/// The same for a guess without multipliers, which are only estimated.
+const GUESS_PUSH: f64 = 1e-6;
+const GUESS_BARRIER: f64 = 1e-6;
+
 /// Settings for a start that is nearly optimal.
 pub fn warm_start_settings(settings: &Settings) -> Settings {
     let ipopt = Options {
@@ -24,6 +28,21 @@ pub fn warm_start_settings(settings: &Settings) -> Settings {
         warm_start_slack_bound_push: WARM_PUSH,
         warm_start_slack_bound_frac: WARM_PUSH,
         warm_start_mult_bound_push: WARM_PUSH,
+        ..settings.ipopt.clone()
+    };
+    Settings { ipopt, ..*settings }
+}
+
+/// Settings for a guess that is nearly optimal but comes without multipliers: they are estimated
+/// from the guess, those of the bounds by their distance from it.
+pub fn close_guess_settings(settings: &Settings) -> Settings {
+    let ipopt = Options {
+        mu_init: GUESS_BARRIER,
+        bound_push: GUESS_PUSH,
+        bound_frac: GUESS_PUSH,
+        slack_bound_push: GUESS_PUSH,
+        slack_bound_frac: GUESS_PUSH,
+        bound_mult_init_method: MultiplierInitialization::MuBased,
         ..settings.ipopt.clone()
     };
     Settings { ipopt, ..*settings }

@@ -25,7 +25,7 @@ pub(crate) struct Coordinates {
 }
 
 impl Coordinates {
-    pub(crate) fn new(scenario: &Scenario) -> Self {
+    pub(crate) fn new(scenario: &Scenario, formulation: Formulation) -> Self {
         let system = Arc::new(scenario.system().model.clone());
         let initial = scenario.initial();
         let attitude = initial.attitude;
@@ -35,12 +35,7 @@ impl Coordinates {
             &initial.joint_rates_rad_s,
         );
         let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
-        Self {
-            formulation: scenario.solver().formulation,
-            momentum: attitude.to_inertial(&h_body),
-            center,
-            system,
-        }
+        Self { formulation, momentum: attitude.to_inertial(&h_body), center, system }
     }
 
     fn joints(&self) -> usize {
@@ -94,10 +89,16 @@ impl Coordinates {
             joint_angles: initial.joint_angles_rad.clone(),
             joint_rates: initial.joint_rates_rad_s.clone(),
         };
+        self.of_free_floating_state(&state)
+    }
+
+    /// The state in these coordinates.
+    pub(crate) fn of_free_floating_state(&self, state: &State<f64>) -> Vec<f64> {
         match self.formulation {
             Formulation::Full => state.to_vec(),
             Formulation::Reduced => {
-                [&attitude.to_array()[..], &state.joint_angles, &state.joint_rates].concat()
+                let attitude = state.attitude.to_array();
+                [&attitude[..], &state.joint_angles, &state.joint_rates].concat()
             }
         }
     }

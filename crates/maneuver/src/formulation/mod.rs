@@ -21,6 +21,7 @@ use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
 use crate::collision::CollisionModel;
+use crate::file::Formulation;
 use crate::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use coordinates::Coordinates;
 
@@ -33,8 +34,14 @@ pub(crate) struct FormulatedManeuver {
 }
 
 impl FormulatedManeuver {
+    /// In the scenario's own form.
+    #[cfg(test)]
     pub(crate) fn new(scenario: &Scenario) -> Self {
-        let coordinates = Coordinates::new(scenario);
+        Self::in_form(scenario, scenario.solver().formulation)
+    }
+
+    pub(crate) fn in_form(scenario: &Scenario, formulation: Formulation) -> Self {
+        let coordinates = Coordinates::new(scenario, formulation);
         let initial = coordinates.initial(scenario.initial());
         let states = coordinates.dimension();
         let limits = &scenario.system().joint_limits;
