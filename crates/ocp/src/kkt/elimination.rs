@@ -13,7 +13,7 @@
 
 use pulp::Simd;
 
-use super::lanes::{AlignedVec, add_rows, reset, scale_row};
+use super::lanes::{AlignedVec, add_rows, reset, scale_row, vectors, vectors_mut};
 
 /// A pivot this small beside the terms it was summed from is rounding noise.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
@@ -89,11 +89,28 @@ impl Elimination {
         &self.rows[k * self.stride..(k + 1) * self.stride]
     }
 
+    /// Eliminates the leading block, in order if it is positive definite; returns its negative
+    /// eigenvalues. See [`Self::eliminate_indefinite`].
+    #[inline(always)]
+    pub fn eliminate<S: Simd>(
+        &mut self,
+        simd: S,
+        matrix: &[f64],
+        scales: &[f64],
+        scaled: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, Breakdown> {
+        if self.eliminate_definite(simd, matrix, scales, scaled, tolerance) {
+            return Ok(0);
+        }
+        self.eliminate_indefinite(matrix, scales, scaled, tolerance)
+    }
+
     /// Eliminates a positive definite leading block in order, from the upper triangle of `matrix`.
     /// Leaves `D [L R]` in `scaled`. Returns false when a pivot is not clearly positive or a
     /// multiplier exceeds `1/tolerance`: then [`Self::eliminate_indefinite`] has to do it.
     #[inline(always)]
-    pub fn eliminate_definite<S: Simd>(
+    fn eliminate_definite<S: Simd>(
         &mut self,
         simd: S,
         matrix: &[f64],
@@ -101,27 +118,28 @@ impl Elimination {
         scaled: &mut [f64],
         tolerance: f64,
     ) -> bool {
-        let stride = self.stride;
+        let (stride, lanes) = (self.stride, S::F64_LANES);
         let mut largest = simd.splat_f64s(0.0);
         for k in 0..self.size {
-            let start = k / S::F64_LANES * S::F64_LANES;
-            let (above, row) = scaled[..(k + 1) * stride].split_at_mut(k * stride);
-            row[..start].fill(0.0);
-            row[start..].copy_from_slice(&matrix[k * stride + start..(k + 1) * stride]);
-            let (eliminated, current) = self.rows[..(k + 1) * stride].split_at_mut(k * stride);
-            let terms = above
-                .chunks_exact(stride)
-                .zip(eliminated.chunks_exact(stride))
-                .map(|(scaled, unit)| (-scaled[k], &unit[start..]));
-            add_rows(simd, &mut row[start..], terms);
+            // Vectors before the diagonal's are zero, or symmetric to what is done.
+            let start = k / lanes;
+            let (above, row) = scaled.split_at_mut(k * stride);
+            let row = &mut row[..stride];
+            row[..start * lanes].fill(0.0);
+            row[start * lanes..]
+                .copy_from_slice(&matrix[k * stride + start * lanes..(k + 1) * stride]);
+            let terms = (0..k).map(|j| (-above[j * stride + k], (j * stride) / lanes + start));
+            let out = &mut vectors_mut::<S>(row)[start..];
+            add_rows(simd, out, vectors::<S>(&self.rows), terms);
             let pivot = row[k];
             let clearly_positive = pivot > NOISE * scales[k];
             if !clearly_positive {
                 return false;
             }
-            row[start..=k].fill(0.0);
+            row[start * lanes..=k].fill(0.0);
             let inverse = 1.0 / pivot;
-            largest = scale_row(simd, current, inverse, row, largest);
+            let unit = vectors_mut::<S>(&mut self.rows[k * stride..(k + 1) * stride]);
+            largest = scale_row(simd, unit, inverse, vectors::<S>(row), largest);
             self.inverse_pivots.push(inverse);
         }
         self.eliminated = self.size;

@@ -35,12 +35,19 @@
 //!   two or three multiplications a column where a dense row costs the row's length.
 //! * All rows are padded to whole SIMD vectors; the lanes are chosen at run time.
 
+mod assembly;
+mod delayed;
 mod dims;
 mod elimination;
 mod factor;
+mod gather;
+mod hessian;
+mod jacobian;
 mod lanes;
 mod node;
+mod packed;
 mod pattern;
+mod regularization;
 mod solve;
 mod solver;
 mod structure;

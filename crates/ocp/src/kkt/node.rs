@@ -1,19 +1,21 @@
 //! What the factorisation keeps of each node.
 
-use super::elimination::{Breakdown, Elimination};
+use super::elimination::{Breakdown, Elimination, NOISE};
 use super::lanes::{AlignedVec, zeros};
+use super::packed::packed_length;
 use super::pattern::NodePattern;
+use super::regularization::Regularization;
 
 /// Factor of one node and of the defect that leads from it to the next.
 #[derive(Debug)]
 pub(super) struct NodeFactor {
-    /// Hessian P of the cost to go in the node's states: all later nodes eliminated. Full, by rows.
+    /// Hessian P of the cost to go in the node's states: all later nodes eliminated. Packed.
     pub value: AlignedVec,
     /// Elimination of the controls and all else that is not a state.
     pub leading: Elimination,
-    /// Jacobian of the step, rows scaled so that the next state has coefficient one, and of the
-    /// inequalities; in the pattern's order.
-    pub constraints: AlignedVec,
+    /// Jacobian of the defects, rows scaled so that the next state has coefficient one, and of the
+    /// inequalities; as the pattern stores it.
+    pub jacobian: AlignedVec,
     /// Reciprocal coefficient of each next state in its defect row.
     pub defect_scales: Vec<f64>,
     /// Elimination of each inequality's slack and multiplier.
@@ -23,30 +25,19 @@ pub(super) struct NodeFactor {
 }
 
 impl NodeFactor {
-    pub fn new(pattern: &NodePattern) -> Self {
+    pub fn new(pattern: &NodePattern, lanes: usize) -> Self {
         let shape = pattern.shape;
         let mut leading = Elimination::default();
         leading.shape(shape.leading(), pattern.split, pattern.stride);
         Self {
-            value: zeros(shape.states * pattern.state_stride),
+            value: zeros(packed_length(shape.states, lanes)),
             leading,
-            constraints: zeros(pattern.entries()),
+            jacobian: zeros(pattern.jacobian.length),
             defect_scales: vec![1.0; shape.defects],
             inequalities: vec![InequalityPivot::default(); shape.inequalities],
             regularization: None,
         }
     }
-}
-
-/// Elimination of next state x and defect multiplier y when the defect's diagonal is −Δ ≠ 0:
-/// `[[P, I], [I, −Δ]]`, through `S = I + √Δ P √Δ`.
-#[derive(Debug, Default)]
-pub(super) struct Regularization {
-    /// √Δ of the scaled defect rows.
-    pub roots: Vec<f64>,
-    /// S eliminated from `[[S, √Δ P], [P √Δ, P]]`; trailing are the states, then the unknowns
-    /// that the next node delayed.
-    pub elimination: Elimination,
 }
 
 /// Inverse of the block `[[σ, e], [e, −δ]]` of a slack and its multiplier, up to signs.
@@ -62,13 +53,14 @@ pub(super) struct InequalityPivot {
 
 impl InequalityPivot {
     /// The pivot and its number of negative eigenvalues.
+    #[inline(always)]
     pub fn new(sigma: f64, e: f64, delta: f64) -> Result<(Self, usize), Breakdown> {
         let determinant = e * e + sigma * delta;
         let terms = e * e + (sigma * delta).abs();
         if !terms.is_finite() {
             return Err(Breakdown::Failed);
         }
-        if determinant.abs() <= super::elimination::NOISE * terms {
+        if determinant.abs() <= NOISE * terms {
             return Err(Breakdown::Singular);
         }
         // The block's determinant is −(e² + σδ): opposite signs when that is negative, else both
@@ -85,6 +77,7 @@ impl InequalityPivot {
     }
 
     /// Slack and multiplier from their right-hand sides, the node's variables being known.
+    #[inline(always)]
     pub fn solve(&self, slack: f64, multiplier: f64) -> (f64, f64) {
         (
             self.compliance * slack + self.coupling * multiplier,

@@ -5,6 +5,8 @@
 //! the previous node's defect determines. A row of the node's symmetric matrix holds the leading
 //! columns, padded to whole SIMD vectors, then the state columns, padded likewise.
 
+use super::jacobian::JacobianPattern;
+
 /// Counts of one node's unknowns and constraint rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct NodeShape {
@@ -23,18 +25,18 @@ impl NodeShape {
     }
 }
 
-/// Where one value of the augmented matrix belongs in its node. The order of the variants is the
-/// order of the node's storage.
+/// Where one value of the augmented matrix belongs in its node. The order of the variants and of
+/// their indices is the order of the node's storage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Place {
     /// Upper triangle, leading row: a leading column.
     Leading { row: u16, column: u16 },
     /// Upper triangle, leading row: a state column.
     Cross { row: u16, column: u16 },
-    /// Upper triangle of the state block.
+    /// Lower triangle of the state block.
     State { row: u16, column: u16 },
-    /// Jacobian of the defect (rows first) and the inequalities, by column: free leading unknowns, then states.
-    Constraint { column: u16, row: u16 },
+    /// Jacobian: defect rows, then inequality rows; free leading columns, then state columns.
+    Constraint { row: u16, column: u16 },
     /// Coefficient of the next node's state in its defect row.
     DefectCoupling { row: u16 },
     /// Diagonal of a defect row: −δ_c.
@@ -47,6 +49,13 @@ pub(super) enum Place {
     InequalityDiagonal { row: u16 },
 }
 
+/// Storage that a value goes to, and where in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Position {
+    Assembly(usize),
+    Jacobian(usize),
+}
+
 /// Structure of one node: shape, sparsity of its constraint rows, and where values go.
 #[derive(Debug)]
 pub(super) struct NodePattern {
@@ -57,22 +66,14 @@ pub(super) struct NodePattern {
     pub stride: usize,
     /// Length of a state row.
     pub state_stride: usize,
-    /// Start of each column's entries in `constraint_rows`; free leading unknowns, then states.
-    pub column_starts: Vec<u32>,
-    /// Row of each entry: defect rows first, then inequalities.
-    pub constraint_rows: Vec<u16>,
-    /// End of each column's defect entries (inequality entries follow to the column's end).
-    pub defect_ends: Vec<u32>,
-    /// Assembly position of each value, in the order of the node's sources.
-    pub destinations: Vec<u32>,
+    pub jacobian: JacobianPattern,
     pub sections: Sections,
 }
 
-/// Offsets into a node's assembly buffer.
+/// Offsets into a node's assembly buffer, which begins with the leading rows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sections {
     pub states: usize,
-    pub constraints: usize,
     pub defect_couplings: usize,
     pub defect_diagonals: usize,
     pub slack_diagonals: usize,
@@ -91,37 +92,21 @@ pub(super) enum MissingCoupling {
 impl NodePattern {
     /// Builds the pattern from the sorted places of a node's values (repeats are summed there).
     pub fn new(shape: NodeShape, places: &[Place], lanes: usize) -> Result<Self, MissingCoupling> {
-        let pad = |length: usize| length.next_multiple_of(lanes);
-        let split = pad(shape.leading());
-        let state_stride = pad(shape.states);
-        let stride = split + state_stride;
-
-        let columns = shape.free + shape.states;
-        let mut column_starts = vec![0; columns + 1];
-        let mut defect_ends = vec![0; columns];
-        let mut constraint_rows = Vec::new();
-        let mut next_column = 0;
-        let mut previous = None;
-        for &place in places {
-            let Place::Constraint { column, row } = place else { continue };
-            if previous == Some(place) {
-                continue;
-            }
-            previous = Some(place);
-            while next_column <= usize::from(column) {
-                column_starts[next_column] = constraint_rows.len() as u32;
-                defect_ends[next_column] = constraint_rows.len() as u32;
-                next_column += 1;
-            }
-            constraint_rows.push(row);
-            if usize::from(row) < shape.defects {
-                defect_ends[usize::from(column)] = constraint_rows.len() as u32;
-            }
+        let coupled = |place: Place| places.binary_search(&place).is_ok();
+        if let Some(row) =
+            (0..shape.defects).find(|&row| !coupled(Place::DefectCoupling { row: row as u16 }))
+        {
+            return Err(MissingCoupling::Defect(row));
         }
-        let entries = constraint_rows.len();
-        column_starts[next_column..].fill(entries as u32);
-        defect_ends[next_column.min(columns)..].fill(entries as u32);
+        if let Some(row) =
+            (0..shape.inequalities).find(|&row| !coupled(Place::SlackCoupling { row: row as u16 }))
+        {
+            return Err(MissingCoupling::Slack(row));
+        }
 
+        let split = shape.leading().next_multiple_of(lanes);
+        let state_stride = shape.states.next_multiple_of(lanes);
+        let stride = split + state_stride;
         let mut end = shape.leading() * stride;
         let mut section = |length: usize| {
             let start = end;
@@ -130,7 +115,6 @@ impl NodePattern {
         };
         let mut sections = Sections {
             states: section(shape.states * state_stride),
-            constraints: section(pad(entries)),
             defect_couplings: section(shape.defects),
             defect_diagonals: section(shape.defects),
             slack_diagonals: section(shape.inequalities),
@@ -140,82 +124,43 @@ impl NodePattern {
         };
         sections.end = end;
 
-        let mut defect_coupled = vec![false; shape.defects];
-        let mut slack_coupled = vec![false; shape.inequalities];
-        let mut entry = sections.constraints;
-        let mut previous = None;
-        let destinations = places
-            .iter()
-            .map(|&place| {
-                let at = |section: usize, row: u16| section + usize::from(row);
-                let position = match place {
-                    Place::Leading { row, column } => {
-                        usize::from(row) * stride + usize::from(column)
-                    }
-                    Place::Cross { row, column } => {
-                        usize::from(row) * stride + split + usize::from(column)
-                    }
-                    Place::State { row, column } => {
-                        sections.states + usize::from(row) * state_stride + usize::from(column)
-                    }
-                    Place::Constraint { .. } => {
-                        if previous.is_some() && previous != Some(place) {
-                            entry += 1;
-                        }
-                        previous = Some(place);
-                        entry
-                    }
-                    Place::DefectCoupling { row } => {
-                        defect_coupled[usize::from(row)] = true;
-                        at(sections.defect_couplings, row)
-                    }
-                    Place::DefectDiagonal { row } => at(sections.defect_diagonals, row),
-                    Place::SlackDiagonal { row } => at(sections.slack_diagonals, row),
-                    Place::SlackCoupling { row } => {
-                        slack_coupled[usize::from(row)] = true;
-                        at(sections.slack_couplings, row)
-                    }
-                    Place::InequalityDiagonal { row } => at(sections.inequality_diagonals, row),
-                };
-                position as u32
-            })
-            .collect();
-        if let Some(row) = defect_coupled.iter().position(|&coupled| !coupled) {
-            return Err(MissingCoupling::Defect(row));
+        let mut entries: Vec<(usize, usize)> = Vec::new();
+        for &place in places {
+            if let Place::Constraint { row, column } = place {
+                let entry = (usize::from(row), local_column(shape, split, usize::from(column)));
+                if entries.last() != Some(&entry) {
+                    entries.push(entry);
+                }
+            }
         }
-        if let Some(row) = slack_coupled.iter().position(|&coupled| !coupled) {
-            return Err(MissingCoupling::Slack(row));
-        }
-        Ok(Self {
-            shape,
-            split,
-            stride,
-            state_stride,
-            column_starts,
-            constraint_rows,
-            defect_ends,
-            destinations,
-            sections,
-        })
+        let jacobian = JacobianPattern::new(shape, split, stride, &entries, lanes);
+        Ok(Self { shape, split, stride, state_stride, jacobian, sections })
     }
 
-    /// Entries of the constraint Jacobian.
-    pub fn entries(&self) -> usize {
-        self.constraint_rows.len()
+    /// Where a value goes.
+    pub fn position(&self, place: Place) -> Position {
+        let sections = &self.sections;
+        let (start, column) = match place {
+            Place::Constraint { row, column } => {
+                let column = local_column(self.shape, self.split, usize::from(column));
+                return Position::Jacobian(self.jacobian.slot(usize::from(row), column));
+            }
+            Place::Leading { row, column } => (usize::from(row) * self.stride, column),
+            Place::Cross { row, column } => (usize::from(row) * self.stride + self.split, column),
+            Place::State { row, column } => {
+                (sections.states + usize::from(row) * self.state_stride, column)
+            }
+            Place::DefectCoupling { row } => (sections.defect_couplings, row),
+            Place::DefectDiagonal { row } => (sections.defect_diagonals, row),
+            Place::SlackDiagonal { row } => (sections.slack_diagonals, row),
+            Place::SlackCoupling { row } => (sections.slack_couplings, row),
+            Place::InequalityDiagonal { row } => (sections.inequality_diagonals, row),
+        };
+        Position::Assembly(start + usize::from(column))
     }
+}
 
-    /// Entries of one column, the defect rows' first.
-    pub fn column(&self, column: usize) -> std::ops::Range<usize> {
-        self.column_starts[column] as usize..self.column_starts[column + 1] as usize
-    }
-
-    /// Entries of one column in defect rows.
-    pub fn defect_column(&self, column: usize) -> std::ops::Range<usize> {
-        self.column_starts[column] as usize..self.defect_ends[column] as usize
-    }
-
-    /// Entries of one column in inequality rows.
-    pub fn inequality_column(&self, column: usize) -> std::ops::Range<usize> {
-        self.defect_ends[column] as usize..self.column_starts[column + 1] as usize
-    }
+/// Free leading unknowns stand at the front of a row, states behind the split.
+fn local_column(shape: NodeShape, split: usize, i: usize) -> usize {
+    if i < shape.free { i } else { split + i - shape.free }
 }

@@ -4,18 +4,21 @@ use pulp::{Simd, WithSimd};
 
 use super::dims::{Layout, NodeLayout};
 use super::elimination::Elimination;
-use super::lanes::{AlignedVec, add_rows, dot, reset, zeros};
+use super::lanes::{AlignedVec, add_rows, dot, reset, vectors, vectors_mut, zeros};
 use super::node::NodeFactor;
+use super::packed::subtract_product;
 use super::pattern::NodePattern;
 use super::structure::Structure;
 
 /// Scratch of the sweeps.
 #[derive(Debug)]
 pub(super) struct SolveWorkspace {
-    /// Unknowns of a node: leading, then states, padded like a leading row.
+    /// Unknowns of a node as in a row of its matrix: leading, then states, padded.
     local: AlignedVec,
-    /// One number for each constraint row of a node.
-    rows: Vec<f64>,
+    /// The same with the leading ones in elimination order, delayed ones among them.
+    ordered: AlignedVec,
+    /// Constraint rows of a node as the Jacobian's products take them.
+    rows: AlignedVec,
     /// Next states.
     states: AlignedVec,
     /// Defect multipliers, or what they are solved from.
@@ -29,7 +32,8 @@ impl Default for SolveWorkspace {
         let empty = || zeros(0);
         Self {
             local: empty(),
-            rows: Vec::new(),
+            ordered: empty(),
+            rows: empty(),
             states: empty(),
             multipliers: empty(),
             inner: empty(),
@@ -68,8 +72,6 @@ struct Step<'a> {
     pattern: &'a NodePattern,
     node: &'a NodeFactor,
     at: &'a NodeLayout,
-    /// First trailing state in the right-hand side.
-    state: usize,
     next: Option<(&'a NodeFactor, &'a NodeLayout)>,
 }
 
@@ -85,7 +87,6 @@ impl<'a> Step<'a> {
             pattern: structure.pattern(k),
             node: &nodes[k],
             at: &layout.nodes[k],
-            state: layout.nodes[k].variable,
             next: nodes.get(k + 1).zip(layout.nodes.get(k + 1)),
         }
     }
@@ -94,74 +95,89 @@ impl<'a> Step<'a> {
     #[inline(always)]
     fn backward<S: Simd>(&self, simd: S, work: &mut SolveWorkspace, rhs: &mut [f64]) {
         let (shape, leading) = (self.pattern.shape, &self.node.leading);
-        work.rows.resize(shape.defects + shape.inequalities, 0.0);
+        let jacobian = &self.pattern.jacobian;
+        let first = jacobian.inequality_rows(S::F64_LANES);
+        reset(&mut work.rows, first + shape.inequalities);
         self.reduce_defect(simd, work, rhs);
         for (row, pivot) in self.node.inequalities.iter().enumerate() {
             let (slack, multiplier) = (self.at.slack + row, self.at.inequality + row);
-            let (_, multiplier) = pivot.solve(rhs[slack], rhs[multiplier]);
-            work.rows[shape.defects + row] = -multiplier;
+            (_, work.rows[first + row]) = pivot.solve(rhs[slack], rhs[multiplier]);
         }
+        self.load(rhs, &mut work.local);
+        jacobian.subtract_transposed(simd, &self.node.jacobian, &work.rows, &mut work.local);
+        self.store(&work.local, rhs);
 
-        for column in 0..shape.free + shape.states {
-            let sum: f64 = self
-                .pattern
-                .column(column)
-                .map(|t| {
-                    let row = usize::from(self.pattern.constraint_rows[t]);
-                    self.node.constraints[t] * work.rows[row]
-                })
-                .sum();
-            rhs[self.unknown(column)] += sum;
-        }
-
-        reset(&mut work.local, leading.stride);
-        gather(leading, rhs, &mut work.local);
-        let states = leading.split..leading.split + shape.states;
-        work.local[states.clone()].copy_from_slice(&rhs[self.state..][..shape.states]);
+        self.gather(rhs, &mut work.ordered);
         for k in 0..leading.eliminated {
-            let coefficient = -work.local[k];
-            add_rows(simd, &mut work.local, std::iter::once((coefficient, leading.row(k))));
+            let term = (-work.ordered[k], k * leading.stride / S::F64_LANES);
+            let out = vectors_mut::<S>(&mut work.ordered);
+            add_rows(simd, out, vectors::<S>(&leading.rows), std::iter::once(term));
         }
-        scatter(leading, &work.local, rhs);
-        rhs[self.state..][..shape.states].copy_from_slice(&work.local[states]);
+        self.scatter(&work.ordered, rhs);
     }
 
     /// Solves for the node's leading unknowns, inequalities, defect multipliers and next states.
     #[inline(always)]
     fn forward<S: Simd>(&self, simd: S, work: &mut SolveWorkspace, rhs: &mut [f64]) {
-        let (shape, leading) = (self.pattern.shape, &self.node.leading);
-        reset(&mut work.local, leading.stride);
-        gather(leading, rhs, &mut work.local);
-        let states = leading.split..leading.split + shape.states;
-        work.local[states].copy_from_slice(&rhs[self.state..][..shape.states]);
-        substitute(simd, leading, &mut work.local);
-        scatter(leading, &work.local, rhs);
+        let shape = self.pattern.shape;
+        self.gather(rhs, &mut work.ordered);
+        substitute(simd, &self.node.leading, &mut work.ordered);
+        self.scatter(&work.ordered, rhs);
 
-        work.rows.clear();
-        work.rows.resize(shape.defects + shape.inequalities, 0.0);
-        for column in 0..shape.free + shape.states {
-            let value = rhs[self.unknown(column)];
-            for t in self.pattern.column(column) {
-                let row = usize::from(self.pattern.constraint_rows[t]);
-                work.rows[row] += self.node.constraints[t] * value;
-            }
-        }
+        let jacobian = &self.pattern.jacobian;
+        let first = jacobian.inequality_rows(S::F64_LANES);
+        reset(&mut work.rows, first);
+        work.rows[S::F64_LANES..][..shape.defects]
+            .copy_from_slice(&rhs[self.at.defect..][..shape.defects]);
+        let inequalities = self.at.inequality..self.at.inequality + shape.inequalities;
+        work.rows.extend_from_slice(&rhs[inequalities]);
+        self.load(rhs, &mut work.local);
+        jacobian.subtract_product(simd, &self.node.jacobian, &work.local, &mut work.rows);
         for (row, pivot) in self.node.inequalities.iter().enumerate() {
             let (slack, multiplier) = (self.at.slack + row, self.at.inequality + row);
-            let residual = rhs[multiplier] - work.rows[shape.defects + row];
-            (rhs[slack], rhs[multiplier]) = pivot.solve(rhs[slack], residual);
+            (rhs[slack], rhs[multiplier]) = pivot.solve(rhs[slack], work.rows[first + row]);
         }
         self.expand_defect(simd, work, rhs);
     }
 
-    /// Unknown of a constraint column.
+    /// Reads the unknowns that constraints see, as they stand in a row of the node's matrix.
     #[inline(always)]
-    fn unknown(&self, column: usize) -> usize {
+    fn load(&self, rhs: &[f64], local: &mut AlignedVec) {
         let shape = self.pattern.shape;
-        match column.checked_sub(shape.free) {
-            None => self.state + shape.states + column,
-            Some(state) => self.state + state,
+        reset(local, self.pattern.stride);
+        let (states, free) = rhs[self.at.variable..].split_at(shape.states);
+        local[..shape.free].copy_from_slice(&free[..shape.free]);
+        local[self.pattern.split..][..shape.states].copy_from_slice(states);
+    }
+
+    /// Writes back what [`Self::load`] reads.
+    #[inline(always)]
+    fn store(&self, local: &[f64], rhs: &mut [f64]) {
+        let shape = self.pattern.shape;
+        let (states, free) = rhs[self.at.variable..].split_at_mut(shape.states);
+        free[..shape.free].copy_from_slice(&local[..shape.free]);
+        states.copy_from_slice(&local[self.pattern.split..][..shape.states]);
+    }
+
+    /// Reads leading unknowns in elimination order, then the states.
+    #[inline(always)]
+    fn gather(&self, rhs: &[f64], ordered: &mut AlignedVec) {
+        let (leading, states) = (&self.node.leading, self.pattern.shape.states);
+        reset(ordered, leading.stride);
+        for (value, &unknown) in ordered.iter_mut().zip(&leading.unknowns) {
+            *value = rhs[unknown as usize];
         }
+        ordered[leading.split..][..states].copy_from_slice(&rhs[self.at.variable..][..states]);
+    }
+
+    /// Writes back what [`Self::gather`] reads.
+    #[inline(always)]
+    fn scatter(&self, ordered: &[f64], rhs: &mut [f64]) {
+        let (leading, states) = (&self.node.leading, self.pattern.shape.states);
+        for (&value, &unknown) in ordered.iter().zip(&leading.unknowns) {
+            rhs[unknown as usize] = value;
+        }
+        rhs[self.at.variable..][..states].copy_from_slice(&ordered[leading.split..][..states]);
     }
 
     /// Defect multipliers before the node's own unknowns are known, into `work.rows`; unknowns
@@ -179,18 +195,19 @@ impl<'a> Step<'a> {
             rhs[self.at.defect + i] = residual;
             work.states[i] = residual;
         }
-        subtract_product(simd, &next.value, &work.states, &mut work.multipliers);
-        self.regularize(simd, work);
-        work.rows[..defects].copy_from_slice(&work.multipliers[..defects]);
+        subtract_product(simd, &next.value, defects, &work.states, &mut work.multipliers);
+        self.cross_regularized(simd, work);
+        work.rows[S::F64_LANES..][..defects].copy_from_slice(&work.multipliers[..defects]);
 
         let leading = &next.leading;
         for j in leading.eliminated..leading.size {
-            let coupling = &leading.row(j)[leading.split..];
-            rhs[leading.unknowns[j] as usize] -= dot(simd, coupling, &work.states);
+            let coupling = vectors::<S>(&leading.row(j)[leading.split..]);
+            let states = vectors::<S>(&work.states);
+            rhs[leading.unknowns[j] as usize] -= dot(simd, coupling, states);
         }
     }
 
-    /// Defect multipliers and next states, the step's image of the node's unknowns in `work.rows`.
+    /// Defect multipliers and next states, the step taken from the node's unknowns in `work.rows`.
     #[inline(always)]
     fn expand_defect<S: Simd>(&self, simd: S, work: &mut SolveWorkspace, rhs: &mut [f64]) {
         let Some((next, next_at)) = self.next else { return };
@@ -199,59 +216,28 @@ impl<'a> Step<'a> {
         reset(&mut work.multipliers, width);
         work.multipliers[..defects].copy_from_slice(&rhs[next_at.variable..][..defects]);
         reset(&mut work.states, width);
-        for i in 0..defects {
-            work.states[i] = rhs[self.at.defect + i] + work.rows[i];
-        }
+        work.states[..defects].copy_from_slice(&work.rows[S::F64_LANES..][..defects]);
         let leading = &next.leading;
         for j in leading.eliminated..leading.size {
             let value = rhs[leading.unknowns[j] as usize];
-            let coupling = &leading.row(j)[leading.split..];
-            add_rows(simd, &mut work.multipliers, std::iter::once((-value, coupling)));
+            let coupling = vectors::<S>(&leading.row(j)[leading.split..]);
+            let out = vectors_mut::<S>(&mut work.multipliers);
+            add_rows(simd, out, coupling, std::iter::once((-value, 0)));
         }
-        subtract_product(simd, &next.value, &work.states, &mut work.multipliers);
-        self.regularize(simd, work);
+        subtract_product(simd, &next.value, defects, &work.states, &mut work.multipliers);
+        self.cross_regularized(simd, work);
         rhs[next_at.variable..][..defects].copy_from_slice(&work.states[..defects]);
         for (i, &scale) in self.node.defect_scales.iter().enumerate() {
             rhs[self.at.defect + i] = scale * work.multipliers[i];
         }
     }
 
-    /// With regularised defects: multipliers `y ← (I + PΔ)⁻¹ y` and states `x ← x + Δ y`.
     #[inline(always)]
-    fn regularize<S: Simd>(&self, simd: S, work: &mut SolveWorkspace) {
-        let Some(regularization) = &self.node.regularization else { return };
-        let elimination = &regularization.elimination;
-        let width = elimination.split;
-        reset(&mut work.inner, width);
-        for (k, &unknown) in elimination.unknowns.iter().enumerate() {
-            let i = unknown as usize;
-            work.inner[k] = regularization.roots[i] * work.multipliers[i];
+    fn cross_regularized<S: Simd>(&self, simd: S, work: &mut SolveWorkspace) {
+        if let Some(regularization) = &self.node.regularization {
+            let SolveWorkspace { inner, multipliers, states, .. } = work;
+            regularization.solve(simd, inner, multipliers, states);
         }
-        for k in 0..elimination.eliminated {
-            let coefficient = -work.inner[k];
-            let (own, trailing) = elimination.row(k).split_at(width);
-            add_rows(simd, &mut work.inner, std::iter::once((coefficient, own)));
-            let trailing = &trailing[..width];
-            add_rows(simd, &mut work.multipliers, std::iter::once((coefficient, trailing)));
-        }
-        for (i, root) in regularization.roots.iter().enumerate() {
-            work.states[i] += root * root * work.multipliers[i];
-        }
-    }
-}
-
-/// Reads the leading unknowns in elimination order.
-#[inline(always)]
-fn gather(leading: &Elimination, rhs: &[f64], local: &mut [f64]) {
-    for (value, &unknown) in local.iter_mut().zip(&leading.unknowns) {
-        *value = rhs[unknown as usize];
-    }
-}
-
-#[inline(always)]
-fn scatter(leading: &Elimination, local: &[f64], rhs: &mut [f64]) {
-    for (&value, &unknown) in local.iter().zip(&leading.unknowns) {
-        rhs[unknown as usize] = value;
     }
 }
 
@@ -272,14 +258,6 @@ fn substitute<S: Simd>(simd: S, leading: &Elimination, local: &mut [f64]) {
         }
     }
     for k in (0..leading.eliminated).rev() {
-        local[k] -= dot(simd, leading.row(k), local);
+        local[k] -= dot(simd, vectors::<S>(leading.row(k)), vectors::<S>(local));
     }
-}
-
-/// `out ← out − matrix · vector` for a symmetric matrix with rows as long as `out`.
-#[inline(always)]
-fn subtract_product<S: Simd>(simd: S, matrix: &[f64], vector: &[f64], out: &mut [f64]) {
-    let width = out.len();
-    let terms = matrix.chunks_exact(width.max(1)).zip(vector).map(|(row, &value)| (-value, row));
-    add_rows(simd, out, terms);
 }

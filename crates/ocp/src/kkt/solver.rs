@@ -4,7 +4,7 @@ use righting_ipopt::{Factorization, LinearSolver, LinearSolverError, PivotTolera
 
 use super::dims::{Layout, StageDims};
 use super::elimination::Breakdown;
-use super::factor::{Factor, Workspace};
+use super::factor::{Factor, FactorWorkspace};
 use super::lanes::Lanes;
 use super::node::NodeFactor;
 use super::solve::{Solve, SolveWorkspace};
@@ -22,7 +22,7 @@ pub struct StageKkt {
     lanes: Lanes,
     structure: Option<Structure>,
     nodes: Vec<NodeFactor>,
-    work: Workspace,
+    work: FactorWorkspace,
     solve_work: SolveWorkspace,
     pivot_tolerance: f64,
 }
@@ -44,7 +44,7 @@ impl StageKkt {
             lanes,
             structure: None,
             nodes: Vec::new(),
-            work: Workspace::default(),
+            work: FactorWorkspace::default(),
             solve_work: SolveWorkspace::default(),
             pivot_tolerance: PIVOT_TOLERANCE,
         }
@@ -68,8 +68,10 @@ impl StageKkt {
     ) -> Result<(), KktStructureError> {
         self.structure = None;
         let structure = Structure::analyse(&self.layout, order, rows, columns, self.lanes.width())?;
-        self.nodes =
-            (0..self.layout.nodes.len()).map(|k| NodeFactor::new(structure.pattern(k))).collect();
+        let lanes = self.lanes.width();
+        let node = |k| NodeFactor::new(structure.pattern(k), lanes);
+        self.nodes = (0..self.layout.nodes.len()).map(node).collect();
+        self.work = FactorWorkspace::default();
         self.structure = Some(structure);
         Ok(())
     }

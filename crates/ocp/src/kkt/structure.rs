@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::dims::{Layout, Role};
+use super::gather::Gather;
 use super::pattern::{MissingCoupling, NodePattern, NodeShape, Place};
 
 /// Why a matrix is not the augmented system of the stage problem.
@@ -60,19 +61,20 @@ pub enum KktStructureError {
 #[derive(Debug)]
 pub(super) struct Structure {
     pub patterns: Vec<NodePattern>,
+    pub gathers: Vec<Gather>,
     pub nodes: Vec<NodeSource>,
-    /// Triplet positions, node after node, in the order of the patterns' destinations.
+    /// Sources of all nodes.
     pub sources: Vec<u32>,
     /// Triplets of the matrix.
     pub triplets: usize,
 }
 
-/// One node's pattern and its part of the sources.
+/// How one node's values are collected.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NodeSource {
-    pub pattern: usize,
+    pub gather: usize,
+    /// First of the node's sources.
     pub start: usize,
-    pub end: usize,
 }
 
 impl Structure {
@@ -91,7 +93,82 @@ impl Structure {
             return Err(KktStructureError::TripletLengths { rows, columns });
         }
         let shapes = node_shapes(layout)?;
+        let by_node = TripletsByNode::new(layout, &shapes, rows, columns)?;
+        let mut structure = Self {
+            patterns: Vec::new(),
+            gathers: Vec::new(),
+            nodes: Vec::with_capacity(shapes.len()),
+            sources: Vec::with_capacity(rows.len()),
+            triplets: rows.len(),
+        };
+        let mut known: HashMap<(NodeShape, Vec<Place>), usize> = HashMap::new();
+        let mut last = 0;
+        for (k, &shape) in shapes.iter().enumerate() {
+            let (places, triplets) = by_node.node(k);
+            let start = structure.sources.len();
+            let gathers = &structure.gathers;
+            // Mostly it is the previous node's; places alone do not tell a shape.
+            let fitting = (last..gathers.len()).chain(0..last).find(|&gather| {
+                structure.patterns[gathers[gather].pattern].shape == shape
+                    && gathers[gather].try_sources(places, triplets, &mut structure.sources)
+            });
+            last = match fitting {
+                Some(gather) => gather,
+                None => {
+                    let mut sorted: Vec<u32> = (0..places.len() as u32).collect();
+                    sorted.sort_by_key(|&number| places[number as usize]);
+                    let ordered = sorted.iter().map(|&number| places[number as usize]).collect();
+                    let key = (shape, ordered);
+                    let pattern = match known.get(&key) {
+                        Some(&pattern) => pattern,
+                        None => {
+                            let pattern = NodePattern::new(shape, &key.1, lanes)
+                                .map_err(|missing| missing_at(k, missing))?;
+                            structure.patterns.push(pattern);
+                            known.insert(key, structure.patterns.len() - 1);
+                            structure.patterns.len() - 1
+                        }
+                    };
+                    let gather = Gather::new(
+                        places.to_vec(),
+                        triplets,
+                        &sorted,
+                        &structure.patterns[pattern],
+                        pattern,
+                    );
+                    gather.try_sources(places, triplets, &mut structure.sources);
+                    structure.gathers.push(gather);
+                    structure.gathers.len() - 1
+                }
+            };
+            structure.nodes.push(NodeSource { gather: last, start });
+        }
+        Ok(structure)
+    }
 
+    pub fn gather(&self, node: usize) -> &Gather {
+        &self.gathers[self.nodes[node].gather]
+    }
+
+    pub fn pattern(&self, node: usize) -> &NodePattern {
+        &self.patterns[self.gather(node).pattern]
+    }
+}
+
+/// Places and indices of the triplets, node after node, in triplet order within a node.
+struct TripletsByNode {
+    starts: Vec<usize>,
+    places: Vec<Place>,
+    triplets: Vec<u32>,
+}
+
+impl TripletsByNode {
+    fn new(
+        layout: &Layout,
+        shapes: &[NodeShape],
+        rows: &[i32],
+        columns: &[i32],
+    ) -> Result<Self, KktStructureError> {
         let roles = layout.roles();
         let role_at = |index: i32| usize::try_from(index).ok().and_then(|i| roles.get(i).copied());
         let mut located = Vec::with_capacity(rows.len());
@@ -99,58 +176,36 @@ impl Structure {
         for (&row, &column) in rows.iter().zip(columns) {
             let (node, place) = role_at(row)
                 .zip(role_at(column))
-                .and_then(|(a, b)| locate(&shapes, a, b))
+                .and_then(|(a, b)| locate(shapes, a, b))
                 .ok_or(KktStructureError::ForeignEntry { row, column })?;
             starts[node + 1] += 1;
-            located.push((node, place));
+            located.push((node as u32, place));
         }
         for k in 0..shapes.len() {
             starts[k + 1] += starts[k];
         }
-        let mut fill = starts.clone();
-        let mut by_node = vec![(Place::DefectCoupling { row: 0 }, 0_u32); rows.len()];
-        for (source, (node, place)) in located.into_iter().enumerate() {
-            by_node[fill[node]] = (place, source as u32);
-            fill[node] += 1;
+        let mut next = starts.clone();
+        let mut places = vec![Place::DefectCoupling { row: 0 }; rows.len()];
+        let mut triplets = vec![0; rows.len()];
+        for (triplet, (node, place)) in located.into_iter().enumerate() {
+            let position = &mut next[node as usize];
+            places[*position] = place;
+            triplets[*position] = triplet as u32;
+            *position += 1;
         }
-
-        let mut patterns = Vec::new();
-        let mut known: HashMap<(NodeShape, Vec<Place>), usize> = HashMap::new();
-        let mut nodes = Vec::with_capacity(shapes.len());
-        let mut sources = Vec::with_capacity(rows.len());
-        for (k, &shape) in shapes.iter().enumerate() {
-            let (start, end) = (starts[k], starts[k + 1]);
-            let entries = &mut by_node[start..end];
-            entries.sort_unstable();
-            sources.extend(entries.iter().map(|&(_, source)| source));
-            let places: Vec<Place> = entries.iter().map(|&(place, _)| place).collect();
-            let key = (shape, places);
-            let pattern = match known.get(&key) {
-                Some(&pattern) => pattern,
-                None => {
-                    let pattern =
-                        NodePattern::new(shape, &key.1, lanes).map_err(
-                            |missing| match missing {
-                                MissingCoupling::Defect(row) => {
-                                    KktStructureError::DefectWithoutState { step: k, row }
-                                }
-                                MissingCoupling::Slack(row) => {
-                                    KktStructureError::InequalityWithoutSlack { node: k, row }
-                                }
-                            },
-                        )?;
-                    patterns.push(pattern);
-                    known.insert(key, patterns.len() - 1);
-                    patterns.len() - 1
-                }
-            };
-            nodes.push(NodeSource { pattern, start, end });
-        }
-        Ok(Self { patterns, nodes, sources, triplets: rows.len() })
+        Ok(Self { starts, places, triplets })
     }
 
-    pub fn pattern(&self, node: usize) -> &NodePattern {
-        &self.patterns[self.nodes[node].pattern]
+    fn node(&self, k: usize) -> (&[Place], &[u32]) {
+        let range = self.starts[k]..self.starts[k + 1];
+        (&self.places[range.clone()], &self.triplets[range])
+    }
+}
+
+fn missing_at(k: usize, missing: MissingCoupling) -> KktStructureError {
+    match missing {
+        MissingCoupling::Defect(row) => KktStructureError::DefectWithoutState { step: k, row },
+        MissingCoupling::Slack(row) => KktStructureError::InequalityWithoutSlack { node: k, row },
     }
 }
 
@@ -201,7 +256,7 @@ fn locate(shapes: &[NodeShape], a: (usize, Role), b: (usize, Role)) -> Option<(u
     let multiplier = |row: usize| shape.free + row;
     let place = match (first, second) {
         (Variable(i), Variable(j)) => match (state(i), state(j)) {
-            (Some(i), Some(j)) => Place::State { row: short(i.min(j)), column: short(i.max(j)) },
+            (Some(i), Some(j)) => Place::State { row: short(i.max(j)), column: short(i.min(j)) },
             (Some(i), None) => Place::Cross { row: short(leading(j)), column: short(i) },
             (None, Some(j)) => Place::Cross { row: short(leading(i)), column: short(j) },
             (None, None) => {
