@@ -21,8 +21,8 @@ use parallel::solve_all;
 /// Steps of the grid on which starts are compared: coarse enough that five of them cost less than
 /// the asked grid, fine enough to tell the optima apart.
 const COARSE_STEPS: usize = 20;
-/// Tolerance there and on the way up.
-const COARSE_TOLERANCE: f64 = 1e-5;
+/// Tolerance there: the next grid corrects more than that.
+const COARSE_TOLERANCE: f64 = 1e-4;
 /// Iterations after which a start on the coarse grid is given up.
 const COARSE_ITERATIONS: u32 = 300;
 /// How much finer than the grid before it a grid may be.

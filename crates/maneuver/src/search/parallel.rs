@@ -1,11 +1,15 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use righting_ocp::{Control, Grid, Guess, OcpError, Settings, Solution};
 
 use super::model::Model;
 use crate::solution::IterationRecord;
+
+/// How often a solve shows where it is.
+const SHOW_EVERY: Duration = Duration::from_millis(20);
 
 enum Event {
     Iteration(IterationRecord),
@@ -35,9 +39,14 @@ pub(super) fn solve_all(
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(guess) = starts.get(index) else { break };
+                    let mut shown = Instant::now();
                     let outcome = model.solve(grid, guess.clone(), settings, |record| {
-                        // The receiver outlives the scope; nobody misses what it does not take.
-                        let _ = sender.send(Event::Iteration(record));
+                        // An iteration takes less time than waking the other thread for it.
+                        if shown.elapsed() > SHOW_EVERY {
+                            shown = Instant::now();
+                            // The receiver outlives the scope.
+                            let _ = sender.send(Event::Iteration(record));
+                        }
                         match stop.load(Ordering::Relaxed) {
                             true => Control::Stop,
                             false => Control::Continue,
