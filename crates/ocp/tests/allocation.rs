@@ -1,0 +1,61 @@
+//! The program's functions allocate nothing once they have run.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use num_dual::DualNum;
+use righting_ipopt::Problem;
+use righting_ocp::*;
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: everything is passed on to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
+        // SAFETY: as the caller's.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as the caller's.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn an_iteration_allocates_nothing() {
+    let problem = ControlProblem::new(3, 1, |x, u| vec![x[1], u[0] - x[0].sin(), x[0] * x[2]])
+        .running_cost(|x, u| u[0] * u[0] + x[2] * x[2])
+        .terminal_cost(|x| x[0].powi(2))
+        .path_constraints(Interval::new(vec![-1.0], vec![1.0]), |x| vec![x[0] * x[1]])
+        .terminal_constraints(Interval::new(vec![0.0], vec![0.0]), |x| vec![x[1] - x[2]]);
+    let functions = StageFunctions::compile(&problem).unwrap();
+    let grid = Grid::new(2.0, 50).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.1, 0.2, 0.3]).unwrap();
+    let layout = program.layout();
+    let mut z = vec![0.1; layout.variables()];
+    let multipliers = vec![0.5; layout.constraints()];
+    let (mut gradient, mut g) = (z.clone(), multipliers.clone());
+    let mut jacobian = vec![0.0; program.jacobian_structure().len()];
+    let mut hessian = vec![0.0; program.hessian_structure().len()];
+    let mut before = 0;
+    for iteration in 0..3 {
+        if iteration == 1 {
+            before = ALLOCATIONS.load(Ordering::SeqCst);
+        }
+        z[0] += 0.01;
+        program.objective(&z, true).unwrap();
+        program.gradient(&z, false, &mut gradient).unwrap();
+        program.constraints(&z, false, &mut g).unwrap();
+        program.jacobian(&z, false, &mut jacobian).unwrap();
+        program.hessian(&z, false, 1.0, &multipliers, true, &mut hessian).unwrap();
+    }
+    assert_eq!(ALLOCATIONS.load(Ordering::SeqCst), before);
+    assert!(before > 0);
+}
