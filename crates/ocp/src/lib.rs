@@ -68,3 +68,4 @@ pub use stage::StageFunctions;
 pub use start::{Guess, Start};
 
 pub use righting_ipopt::{Control, Iteration, Options, Status, Timing};
+pub use righting_symbolic::Backend;

@@ -61,10 +61,21 @@ impl MultipleShooting<'_> {
         if settings.linear_solver == LinearSolver::Mumps {
             return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
         }
-        let mut history = Vec::new();
         let mut stage = StageKkt::new(&self.stage_dims());
+        self.solve_in_stages(&start, settings, &mut stage, &mut on_iteration)
+    }
+
+    /// Solves with `stage`, and where that does not succeed with MUMPS if the settings allow.
+    fn solve_in_stages(
+        &mut self,
+        start: &righting_ipopt::Start,
+        settings: &Settings,
+        stage: &mut impl righting_ipopt::LinearSolver,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Result<Solution, OcpError> {
+        let mut history = Vec::new();
         let outcome =
-            righting_ipopt::solve_with(self, &settings.ipopt, &start, &mut stage, |iteration| {
+            righting_ipopt::solve_with(self, &settings.ipopt, start, stage, |iteration| {
                 history.push(*iteration);
                 on_iteration(iteration)
             });
@@ -72,14 +83,14 @@ impl MultipleShooting<'_> {
         let stage_solution = match outcome {
             Ok(solution) => self.solution(solution, history, UsedLinearSolver::Stage),
             Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
-                return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
+                return self.solve_with_mumps(start, &settings.ipopt, on_iteration);
             }
             Err(error) => return Err(error.into()),
         };
         if !(retry && may_be_the_linear_solver(stage_solution.status)) {
             return Ok(stage_solution);
         }
-        let again = self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?;
+        let again = self.solve_with_mumps(start, &settings.ipopt, on_iteration)?;
         Ok(Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again })
     }
 
@@ -244,3 +255,6 @@ impl<'f> FullStep<'f> {
         state.copy_from_slice(&self.next);
     }
 }
+
+#[cfg(test)]
+mod tests;

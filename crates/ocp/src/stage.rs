@@ -1,4 +1,4 @@
-use righting_symbolic::{Expr, Function, SparseMatrix, hessian_lower, jacobian};
+use righting_symbolic::{Backend, Expr, Function, SparseMatrix, hessian_lower, jacobian};
 
 use crate::error::OcpError;
 use crate::passive::active_states;
@@ -37,7 +37,7 @@ pub(crate) fn varying(matrix: &SparseMatrix) -> Vec<Expr> {
 
 /// A function of one node (or step) with its gradient or Jacobian, and the Hessian of its weighted
 /// sum.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct NodeFunction {
     /// Values and first derivatives: ports `value`, `jacobian`.
     pub(crate) first: Function,
@@ -78,11 +78,15 @@ impl NodeFunction {
             hessian: MatrixOutput::of(&second),
         })
     }
+
+    fn functions_mut(&mut self) -> [&mut Function; 3] {
+        [&mut self.first, &mut self.value, &mut self.second]
+    }
 }
 
 /// Everything about a [`ControlProblem`] that does not depend on the grid, the start or the bounds'
 /// values: traced once, differentiated exactly, compiled for batches of stages.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StageFunctions {
     pub(crate) states: usize,
     pub(crate) controls: usize,
@@ -178,6 +182,24 @@ impl StageFunctions {
             ode,
             active,
         })
+    }
+
+    /// The same functions evaluated in another way; `None` if this machine cannot. Values do not
+    /// depend on it.
+    pub fn with_backend(&self, backend: Backend) -> Option<Self> {
+        let mut other = self.clone();
+        let nodes = [
+            &mut other.ode,
+            &mut other.running,
+            &mut other.terminal_cost,
+            &mut other.path,
+            &mut other.terminal,
+        ];
+        let functions = nodes.into_iter().flat_map(NodeFunction::functions_mut);
+        for function in functions.chain(other.step.functions_mut()).chain(&mut other.full_ode) {
+            *function = function.with_backend(backend)?;
+        }
+        Some(other)
     }
 
     /// Operations per step and solver iteration: `(Jacobian, Hessian)`.

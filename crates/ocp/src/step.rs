@@ -12,7 +12,7 @@ const MULTIPLIER_PORTS: [&str; STAGES] = ["mu_1", "mu_2", "mu_3", "mu_4"];
 
 /// The derivatives of one integration step F(x, u) from those of ẋ at its stage points. All three
 /// functions take the ports `h`, then the varying entries of J_1…J_4.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct StepFunctions {
     /// `→ −∂F/∂(x, u)`, the sign it has in the defect x⁺ − F.
     pub(crate) first: Function,
@@ -78,5 +78,9 @@ impl StepFunctions {
             second,
             hessian: MatrixOutput::of(&step_hessian),
         })
+    }
+
+    pub(crate) fn functions_mut(&mut self) -> [&mut Function; 3] {
+        [&mut self.first, &mut self.multipliers, &mut self.second]
     }
 }

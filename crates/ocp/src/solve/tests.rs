@@ -1,0 +1,146 @@
+use num_dual::DualNum;
+use righting_ipopt::{Factorization, LinearSolverError, PivotTolerances};
+
+use super::*;
+use crate::grid::Grid;
+use crate::problem::ControlProblem;
+use crate::stage::StageFunctions;
+use crate::start::Guess;
+
+const STEPS: usize = 30;
+
+/// What goes wrong with a factorisation.
+#[derive(Clone, Copy, Debug)]
+enum Trouble {
+    /// It is given up.
+    Failed,
+    /// Every matrix is called singular.
+    Singular,
+    /// The inertia is wrong, whatever Ipopt adds.
+    WrongInertia,
+    /// Solutions are not numbers.
+    NotANumber,
+    /// Solutions are solutions of something else.
+    Noise,
+}
+
+/// The stage solver, sound for so many factorisations.
+struct Failing {
+    stage: StageKkt,
+    sound: usize,
+    is_sound: bool,
+    trouble: Trouble,
+}
+
+impl righting_ipopt::LinearSolver for Failing {
+    fn analyse(
+        &mut self,
+        order: usize,
+        rows: &[i32],
+        columns: &[i32],
+    ) -> Result<(), LinearSolverError> {
+        self.stage.analyse(order, rows, columns)
+    }
+
+    fn factor(&mut self, values: &[f64]) -> Factorization {
+        self.is_sound = self.sound > 0;
+        self.sound = self.sound.saturating_sub(1);
+        let outcome = self.stage.factor(values);
+        match self.trouble {
+            _ if self.is_sound => outcome,
+            Trouble::Failed => Factorization::Failed,
+            Trouble::Singular => Factorization::Singular,
+            Trouble::WrongInertia => Factorization::Regular { negative_eigenvalues: 0 },
+            Trouble::NotANumber | Trouble::Noise => outcome,
+        }
+    }
+
+    fn solve(&mut self, right_hand_sides: &mut [f64]) {
+        self.stage.solve(right_hand_sides);
+        match self.trouble {
+            _ if self.is_sound => {}
+            Trouble::NotANumber => right_hand_sides.fill(f64::NAN),
+            Trouble::Noise => {
+                for (i, value) in right_hand_sides.iter_mut().enumerate() {
+                    *value += (i as f64).sin();
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn pivot_tolerances(&self) -> Option<PivotTolerances> {
+        self.stage.pivot_tolerances()
+    }
+
+    fn set_pivot_tolerance(&mut self, tolerance: f64) {
+        self.stage.set_pivot_tolerance(tolerance);
+    }
+}
+
+/// A pendulum that swings up and is held there, with little torque.
+fn pendulum() -> ControlProblem {
+    ControlProblem::new(2, 1, |x, u| vec![x[1], u[0] - x[0].sin()])
+        .running_cost(|_, u| u[0].powi(2))
+        .control_bounds(Interval::symmetric(&[0.6]))
+        .terminal_constraints(
+            Interval::new(vec![std::f64::consts::PI, 0.0], vec![std::f64::consts::PI, 0.0]),
+            |x| x.to_vec(),
+        )
+}
+
+fn start(program: &MultipleShooting) -> righting_ipopt::Start {
+    let guess = Guess::constant(&[0.0, 0.0], 1, STEPS);
+    program.ipopt_start(&Start::Guess(guess)).unwrap()
+}
+
+/// The solution of a solver that fails, and how often iterations were counted from the start.
+fn solved_in_trouble(
+    functions: &StageFunctions,
+    sound: usize,
+    trouble: Trouble,
+    linear_solver: LinearSolver,
+) -> (Solution, usize) {
+    let grid = Grid::new(10.0, STEPS).unwrap();
+    let mut program = MultipleShooting::new(functions, grid, &[0.0, 0.0]).unwrap();
+    let stage = StageKkt::new(&program.stage_dims());
+    let mut failing = Failing { stage, sound, is_sound: true, trouble };
+    let settings = Settings { linear_solver, ..Settings::default() };
+    let start = start(&program);
+    let mut begun = 0;
+    let solution = program
+        .solve_in_stages(&start, &settings, &mut failing, &mut |iteration| {
+            begun += usize::from(iteration.iteration == 0);
+            Control::Continue
+        })
+        .unwrap();
+    (solution, begun)
+}
+
+#[test]
+fn mumps_takes_over_whatever_goes_wrong_and_whenever() {
+    let functions = StageFunctions::compile(&pendulum()).unwrap();
+    let grid = Grid::new(10.0, STEPS).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
+    let mumps = Settings { linear_solver: LinearSolver::Mumps, ..Settings::default() };
+    let guess = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let expected = program.solve(&guess, &mumps, |_| Control::Continue).unwrap();
+    assert_eq!(expected.status, Status::Solved);
+    assert_eq!(expected.linear_solver, UsedLinearSolver::Mumps);
+    use Trouble::*;
+    for trouble in [Failed, Singular, WrongInertia, NotANumber, Noise] {
+        for sound in [0, 2, 5] {
+            let (alone, _) = solved_in_trouble(&functions, sound, trouble, LinearSolver::Stage);
+            assert!(!alone.status.is_success(), "{trouble:?} after {sound}: {}", alone.status);
+            assert_eq!(alone.linear_solver, UsedLinearSolver::Stage);
+
+            let (solution, begun) =
+                solved_in_trouble(&functions, sound, trouble, LinearSolver::Auto);
+            assert_eq!(solution.status, Status::Solved, "{trouble:?} after {sound}");
+            assert_eq!(solution.linear_solver, UsedLinearSolver::MumpsAfterStage);
+            assert_eq!(solution.point.z, expected.point.z, "{trouble:?} after {sound}");
+            assert_eq!(solution.history.len(), expected.history.len());
+            assert!(begun <= 2);
+        }
+    }
+}
