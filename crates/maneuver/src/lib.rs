@@ -63,9 +63,10 @@ pub mod verifier;
 
 pub use collision::CollisionModel;
 pub use error::Error;
+pub use formulation::FormulatedManeuver;
 pub use initial::Initial;
 pub use outcome::objective;
-pub use planner::{Plan, PlanError, PlanTiming, plan};
+pub use planner::{Plan, PlanError, PlanTiming, plan, plan_with_threads};
 pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, Versions};
 pub use system_description::{JointLimits, SystemDescription};

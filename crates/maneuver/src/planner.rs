@@ -1,5 +1,7 @@
 //! From a scenario to a trajectory.
 
+use std::num::NonZeroUsize;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver};
@@ -69,13 +71,28 @@ pub enum PlanError {
 /// several starts are compared on a coarse grid in the reduced form, and the best of those plans is
 /// carried to the asked grid and form; if that fails, the plan of the constant guess is the answer.
 ///
+/// The starts share all cores; see [`plan_with_threads`] for fewer. The plan does not depend on that.
+///
 /// # Errors
 /// [`PlanError`] when there is nothing to optimize.
 pub fn plan(
     scenario: &Scenario,
     on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
 ) -> Result<Plan, PlanError> {
-    let mut search = Search::new(scenario, on_iteration)?;
+    let cores = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    plan_with_threads(scenario, cores, on_iteration)
+}
+
+/// [`plan`] with so many starts at a time at most.
+///
+/// # Errors
+/// Those of [`plan`].
+pub fn plan_with_threads(
+    scenario: &Scenario,
+    threads: NonZeroUsize,
+    on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
+) -> Result<Plan, PlanError> {
+    let mut search = Search::new(scenario, threads, on_iteration)?;
     let started = Instant::now();
     let coarse = search.best_coarse_solution()?;
     let guess = started.elapsed();

@@ -25,18 +25,18 @@ use crate::file::Formulation;
 use crate::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use coordinates::Coordinates;
 
-/// A scenario as an optimal control problem in one of the two sets of coordinates.
-pub(crate) struct FormulatedManeuver {
-    pub(crate) problem: ControlProblem,
+/// A scenario as an optimal control problem: what [`plan`](crate::plan) transcribes and solves.
+pub struct FormulatedManeuver {
+    /// The problem, in continuous time.
+    pub problem: ControlProblem,
     pub(crate) coordinates: Coordinates,
-    /// x_0 in those coordinates.
-    pub(crate) initial: Vec<f64>,
+    /// Its initial state x_0: [r, q_BN, ṙ, ω, q, q̇] in the full form, [q_BN, q, q̇] in the reduced.
+    pub initial: Vec<f64>,
 }
 
 impl FormulatedManeuver {
     /// In the scenario's own form.
-    #[cfg(test)]
-    pub(crate) fn new(scenario: &Scenario) -> Self {
+    pub fn new(scenario: &Scenario) -> Self {
         Self::in_form(scenario, scenario.solver().formulation)
     }
 

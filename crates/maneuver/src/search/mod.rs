@@ -3,6 +3,7 @@
 mod model;
 mod parallel;
 
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -16,7 +17,7 @@ use crate::formulation::Coordinates;
 use crate::scenario::{MAX_STARTS, Scenario};
 use crate::solution::IterationRecord;
 use model::Model;
-use parallel::solve_all;
+use parallel::Batch;
 
 /// Steps of the grid on which starts are compared: coarse enough that five of them cost less than
 /// the asked grid, fine enough to tell the optima apart.
@@ -39,6 +40,8 @@ pub(crate) struct Search<'a> {
     scout: Option<Model>,
     /// The asked grid.
     grid: Grid,
+    /// How many starts are solved at a time at most.
+    threads: NonZeroUsize,
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     /// Every solve so far.
     pub(crate) rungs: Vec<Rung>,
@@ -50,6 +53,7 @@ pub(crate) struct Search<'a> {
 impl<'a> Search<'a> {
     pub(crate) fn new(
         scenario: &'a Scenario,
+        threads: NonZeroUsize,
         on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
@@ -65,6 +69,7 @@ impl<'a> Search<'a> {
             model,
             scout,
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
+            threads,
             on_iteration,
             rungs: Vec::new(),
             trace: started.elapsed(),
@@ -98,7 +103,8 @@ impl<'a> Search<'a> {
         let mut settings = settings(self.scenario);
         settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
         settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
-        let solutions = solve_all(scout, grid, &starts, &settings, self.on_iteration, &self.stop)?;
+        let batch = Batch { model: scout, grid, starts: &starts, settings: &settings };
+        let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
         let mut best: Option<Solution> = None;
         for solution in solutions {
             let (status, iterations) = (solution.status, solution.iterations());
