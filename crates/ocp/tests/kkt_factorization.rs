@@ -2,6 +2,7 @@
 
 mod kkt_support;
 
+use kkt_support::arm::ArmSystem;
 use kkt_support::{Random, Recipe, System, backward_error, node, norm};
 use righting_ipopt::{Factorization, LinearSolver};
 use righting_ocp::kkt::{NodeDims, StageDims, StageKkt};
@@ -63,6 +64,44 @@ fn convex_systems_have_one_negative_eigenvalue_a_constraint() {
         let system = System::random(nodes.clone(), recipe, random);
         assert_eq!(check_all(&system, random), constraints(&nodes));
     }
+}
+
+/// Rows of integrators are stored by diagonals, the attitude's in full.
+#[test]
+fn arms_mix_integrators_with_full_rows() {
+    let random = &mut Random::new(10);
+    for (joints, path) in [(2, 2), (4, 0), (7, 8)] {
+        let arm = ArmSystem::new(joints, path, 3);
+        let mut system = System::empty(arm.dims);
+        (system.rows, system.columns, system.values) = (arm.rows, arm.columns, arm.values);
+        assert_eq!(check_all(&system, random), constraints(system.dims.nodes()));
+    }
+}
+
+/// With more than one eigenvalue too many the solver may stop, and says one too many.
+#[test]
+fn stopping_at_excess_reports_every_excess() {
+    let random = &mut Random::new(11);
+    let mut excesses = 0;
+    for round in 0..60 {
+        let mut nodes = uniform(1 + random.below(6), 1 + random.below(4), random.below(3), 5);
+        nodes[5].equalities = random.below(2);
+        let convexity = [0.0, 1.0, 2.0, 6.0][round % 4];
+        let recipe = Recipe { convexity, density: 0.9, ..Recipe::default() };
+        let system = System::random(nodes.clone(), recipe, random);
+        let (negative, _) = system.inertia();
+        let least = constraints(&nodes);
+        assert!(negative >= least);
+        let mut solver = StageKkt::new(&system.dims).stop_at_excess();
+        solver.analyse(system.offsets.order, &system.rows, &system.columns).unwrap();
+        let negative_eigenvalues = negative.min(least + 1);
+        assert_eq!(solver.factor(&system.values), Factorization::Regular { negative_eigenvalues });
+        let mut rhs = vec![1.0; system.offsets.order];
+        solver.solve(&mut rhs);
+        assert_eq!(rhs.iter().all(|value| value.is_finite()), negative == least);
+        excesses += usize::from(negative > least);
+    }
+    assert!((15..=45).contains(&excesses), "{excesses} of 60 systems have the wrong inertia");
 }
 
 #[test]

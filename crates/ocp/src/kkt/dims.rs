@@ -50,15 +50,15 @@ impl StageDims {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
     /// Decision variable: the states first, then the controls.
-    Variable(usize),
+    Variable(u32),
     /// Slack of an inequality.
-    Slack(usize),
+    Slack(u32),
     /// Multiplier of the defect that leads from this node to the next.
-    Defect(usize),
+    Defect(u32),
     /// Multiplier of an equality.
-    Equality(usize),
+    Equality(u32),
     /// Multiplier of an inequality.
-    Inequality(usize),
+    Inequality(u32),
 }
 
 /// Offsets of one node's unknowns in the augmented vector `[z, s, y_c, y_d]`.
@@ -116,13 +116,19 @@ impl Layout {
         Self { nodes, order: inequality }
     }
 
+    /// Constraints of the problem.
+    pub fn constraints(&self) -> usize {
+        let rows = |node: &NodeLayout| node.defects + node.dims.equalities + node.dims.inequalities;
+        self.nodes.iter().map(rows).sum()
+    }
+
     /// Node and role of every unknown, in order.
-    pub fn roles(&self) -> Vec<(usize, Role)> {
+    pub fn roles(&self) -> Vec<(u32, Role)> {
         let mut roles = vec![(0, Role::Variable(0)); self.order];
-        for (k, node) in self.nodes.iter().enumerate() {
-            let mut fill = |start: usize, count: usize, role: fn(usize) -> Role| {
-                for i in 0..count {
-                    roles[start + i] = (k, role(i));
+        for (node, k) in self.nodes.iter().zip(0..) {
+            let mut fill = |start: usize, count: usize, role: fn(u32) -> Role| {
+                for (unknown, i) in roles[start..start + count].iter_mut().zip(0..) {
+                    *unknown = (k, role(i));
                 }
             };
             fill(node.variable, node.dims.states + node.dims.controls, Role::Variable);

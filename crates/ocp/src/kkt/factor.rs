@@ -45,7 +45,7 @@ impl Default for FactorWorkspace {
     }
 }
 
-/// One factorisation; its outcome is the number of negative eigenvalues.
+/// One factorisation.
 pub(super) struct Factor<'a> {
     pub layout: &'a Layout,
     pub structure: &'a Structure,
@@ -54,20 +54,42 @@ pub(super) struct Factor<'a> {
     pub values: &'a [f64],
     /// Smallest pivot allowed beside the rest of its row.
     pub tolerance: f64,
+    /// Stop as soon as there are more negative eigenvalues than constraints.
+    pub stop_at_excess: bool,
+}
+
+/// How far a factorisation came.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Inertia {
+    /// All the way.
+    Exact {
+        /// Negative eigenvalues.
+        negative: usize,
+    },
+    /// Until the matrix was known to have more negative eigenvalues than constraints.
+    Excess,
 }
 
 impl WithSimd for Factor<'_> {
-    type Output = Result<usize, Breakdown>;
+    type Output = Result<Inertia, Breakdown>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
         let mut negative = 0;
+        let mut constraints = 0;
         for k in (0..self.nodes.len()).rev() {
             negative += self.eliminate_node(simd, k)?;
+            // Whatever is left has at least one negative eigenvalue for each of its constraints,
+            // whose diagonal block is not positive.
+            let shape = self.structure.pattern(k).shape;
+            constraints += shape.defects + shape.equalities + shape.inequalities;
+            if self.stop_at_excess && negative > constraints {
+                return Ok(Inertia::Excess);
+            }
         }
         match self.nodes.first() {
             Some(first) if first.leading.delayed() > 0 => Err(Breakdown::Singular),
-            _ => Ok(negative),
+            _ => Ok(Inertia::Exact { negative }),
         }
     }
 }

@@ -25,28 +25,45 @@ impl NodeShape {
     }
 }
 
-/// Where one value of the augmented matrix belongs in its node. The order of the variants and of
-/// their indices is the order of the node's storage.
+/// Part of a node's matrix, in the order of the node's storage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum Place {
-    /// Upper triangle, leading row: a leading column.
-    Leading { row: u16, column: u16 },
-    /// Upper triangle, leading row: a state column.
-    Cross { row: u16, column: u16 },
+#[repr(u16)]
+pub(super) enum Block {
+    /// Upper triangle, leading row: leading columns.
+    Leading,
+    /// Upper triangle, leading row: state columns.
+    Cross,
     /// Lower triangle of the state block.
-    State { row: u16, column: u16 },
+    State,
     /// Jacobian: defect rows, then inequality rows; free leading columns, then state columns.
-    Constraint { row: u16, column: u16 },
-    /// Coefficient of the next node's state in its defect row.
-    DefectCoupling { row: u16 },
-    /// Diagonal of a defect row: −δ_c.
-    DefectDiagonal { row: u16 },
-    /// Diagonal of a slack.
-    SlackDiagonal { row: u16 },
-    /// Coefficient of the slack in its inequality row.
-    SlackCoupling { row: u16 },
-    /// Diagonal of an inequality row: −δ_d.
-    InequalityDiagonal { row: u16 },
+    Jacobian,
+    /// Coefficients of the next node's states in their defect rows.
+    DefectCoupling,
+    /// Diagonal of the defect rows: −δ_c.
+    DefectDiagonal,
+    /// Diagonal of the slacks.
+    SlackDiagonal,
+    /// Coefficients of the slacks in their inequality rows.
+    SlackCoupling,
+    /// Diagonal of the inequality rows: −δ_d.
+    InequalityDiagonal,
+}
+
+/// Where one value of the augmented matrix belongs in its node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Place {
+    pub block: Block,
+    pub row: u16,
+    /// Zero in blocks that are diagonal.
+    pub column: u16,
+}
+
+impl Place {
+    /// A place whose indices fit, which the node's shape has been checked for.
+    #[inline(always)]
+    pub fn new(block: Block, row: usize, column: usize) -> Self {
+        Self { block, row: row as u16, column: column as u16 }
+    }
 }
 
 /// Storage that a value goes to, and where in it.
@@ -92,14 +109,12 @@ pub(super) enum MissingCoupling {
 impl NodePattern {
     /// Builds the pattern from the sorted places of a node's values (repeats are summed there).
     pub fn new(shape: NodeShape, places: &[Place], lanes: usize) -> Result<Self, MissingCoupling> {
-        let coupled = |place: Place| places.binary_search(&place).is_ok();
-        if let Some(row) =
-            (0..shape.defects).find(|&row| !coupled(Place::DefectCoupling { row: row as u16 }))
-        {
+        let coupled =
+            |block: Block, row: usize| places.binary_search(&Place::new(block, row, 0)).is_ok();
+        if let Some(row) = (0..shape.defects).find(|&row| !coupled(Block::DefectCoupling, row)) {
             return Err(MissingCoupling::Defect(row));
         }
-        if let Some(row) =
-            (0..shape.inequalities).find(|&row| !coupled(Place::SlackCoupling { row: row as u16 }))
+        if let Some(row) = (0..shape.inequalities).find(|&row| !coupled(Block::SlackCoupling, row))
         {
             return Err(MissingCoupling::Slack(row));
         }
@@ -125,12 +140,11 @@ impl NodePattern {
         sections.end = end;
 
         let mut entries: Vec<(usize, usize)> = Vec::new();
-        for &place in places {
-            if let Place::Constraint { row, column } = place {
-                let entry = (usize::from(row), local_column(shape, split, usize::from(column)));
-                if entries.last() != Some(&entry) {
-                    entries.push(entry);
-                }
+        for place in places.iter().filter(|place| place.block == Block::Jacobian) {
+            let column = local_column(shape, split, usize::from(place.column));
+            let entry = (usize::from(place.row), column);
+            if entries.last() != Some(&entry) {
+                entries.push(entry);
             }
         }
         let jacobian = JacobianPattern::new(shape, split, stride, &entries, lanes);
@@ -140,23 +154,21 @@ impl NodePattern {
     /// Where a value goes.
     pub fn position(&self, place: Place) -> Position {
         let sections = &self.sections;
-        let (start, column) = match place {
-            Place::Constraint { row, column } => {
-                let column = local_column(self.shape, self.split, usize::from(column));
-                return Position::Jacobian(self.jacobian.slot(usize::from(row), column));
+        let (row, column) = (usize::from(place.row), usize::from(place.column));
+        Position::Assembly(match place.block {
+            Block::Jacobian => {
+                let column = local_column(self.shape, self.split, column);
+                return Position::Jacobian(self.jacobian.slot(row, column));
             }
-            Place::Leading { row, column } => (usize::from(row) * self.stride, column),
-            Place::Cross { row, column } => (usize::from(row) * self.stride + self.split, column),
-            Place::State { row, column } => {
-                (sections.states + usize::from(row) * self.state_stride, column)
-            }
-            Place::DefectCoupling { row } => (sections.defect_couplings, row),
-            Place::DefectDiagonal { row } => (sections.defect_diagonals, row),
-            Place::SlackDiagonal { row } => (sections.slack_diagonals, row),
-            Place::SlackCoupling { row } => (sections.slack_couplings, row),
-            Place::InequalityDiagonal { row } => (sections.inequality_diagonals, row),
-        };
-        Position::Assembly(start + usize::from(column))
+            Block::Leading => row * self.stride + column,
+            Block::Cross => row * self.stride + self.split + column,
+            Block::State => sections.states + row * self.state_stride + column,
+            Block::DefectCoupling => sections.defect_couplings + row,
+            Block::DefectDiagonal => sections.defect_diagonals + row,
+            Block::SlackDiagonal => sections.slack_diagonals + row,
+            Block::SlackCoupling => sections.slack_couplings + row,
+            Block::InequalityDiagonal => sections.inequality_diagonals + row,
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use righting_ipopt::{Factorization, LinearSolver, LinearSolverError, PivotTolera
 
 use super::dims::{Layout, StageDims};
 use super::elimination::Breakdown;
-use super::factor::{Factor, FactorWorkspace};
+use super::factor::{Factor, FactorWorkspace, Inertia};
 use super::lanes::Lanes;
 use super::node::NodeFactor;
 use super::solve::{Solve, SolveWorkspace};
@@ -25,6 +25,9 @@ pub struct StageKkt {
     work: FactorWorkspace,
     solve_work: SolveWorkspace,
     pivot_tolerance: f64,
+    stop_at_excess: bool,
+    /// Whether the last factorisation came to its end.
+    factorised: bool,
 }
 
 impl StageKkt {
@@ -38,6 +41,14 @@ impl StageKkt {
         Self::with_lanes(dims, Lanes::Scalar)
     }
 
+    /// Gives up a factorisation as soon as there are more negative eigenvalues than constraints,
+    /// and reports one too many instead of how many there are. Ipopt regularises such a matrix
+    /// whatever the number, and does not solve with it.
+    pub fn stop_at_excess(mut self) -> Self {
+        self.stop_at_excess = true;
+        self
+    }
+
     fn with_lanes(dims: &StageDims, lanes: Lanes) -> Self {
         Self {
             layout: Layout::new(dims),
@@ -47,6 +58,8 @@ impl StageKkt {
             work: FactorWorkspace::default(),
             solve_work: SolveWorkspace::default(),
             pivot_tolerance: PIVOT_TOLERANCE,
+            stop_at_excess: false,
+            factorised: false,
         }
     }
 
@@ -67,6 +80,7 @@ impl StageKkt {
         columns: &[i32],
     ) -> Result<(), KktStructureError> {
         self.structure = None;
+        self.factorised = false;
         let structure = Structure::analyse(&self.layout, order, rows, columns, self.lanes.width())?;
         let lanes = self.lanes.width();
         let node = |k| NodeFactor::new(structure.pattern(k), lanes);
@@ -90,6 +104,7 @@ impl LinearSolver for StageKkt {
 
     /// Factorises; fails before a successful analysis and when the number of values differs.
     fn factor(&mut self, values: &[f64]) -> Factorization {
+        self.factorised = false;
         let Some(structure) = self.structure.as_ref().filter(|s| s.triplets == values.len()) else {
             return Factorization::Failed;
         };
@@ -100,17 +115,26 @@ impl LinearSolver for StageKkt {
             work: &mut self.work,
             values,
             tolerance: self.pivot_tolerance,
+            stop_at_excess: self.stop_at_excess,
         });
+        self.factorised = matches!(outcome, Ok(Inertia::Exact { .. }));
         match outcome {
-            Ok(negative_eigenvalues) => Factorization::Regular { negative_eigenvalues },
+            Ok(Inertia::Exact { negative }) => {
+                Factorization::Regular { negative_eigenvalues: negative }
+            }
+            Ok(Inertia::Excess) => {
+                Factorization::Regular { negative_eigenvalues: self.layout.constraints() + 1 }
+            }
             Err(Breakdown::Singular) => Factorization::Singular,
             Err(Breakdown::Failed) => Factorization::Failed,
         }
     }
 
-    /// Solves with the last factorisation, which must have been regular.
+    /// Solves with the last factorisation; the result is not a number when there is none.
     fn solve(&mut self, right_hand_sides: &mut [f64]) {
-        let Some(structure) = &self.structure else { return };
+        let Some(structure) = self.structure.as_ref().filter(|_| self.factorised) else {
+            return right_hand_sides.fill(f64::NAN);
+        };
         for rhs in right_hand_sides.chunks_exact_mut(self.layout.order.max(1)) {
             self.lanes.run(Solve {
                 layout: &self.layout,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::dims::{Layout, Role};
 use super::gather::Gather;
-use super::pattern::{MissingCoupling, NodePattern, NodeShape, Place};
+use super::pattern::{Block, MissingCoupling, NodePattern, NodeShape, Place};
 
 /// Why a matrix is not the augmented system of the stage problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -171,26 +171,27 @@ impl TripletsByNode {
     ) -> Result<Self, KktStructureError> {
         let roles = layout.roles();
         let role_at = |index: i32| usize::try_from(index).ok().and_then(|i| roles.get(i).copied());
-        let mut located = Vec::with_capacity(rows.len());
         let mut starts = vec![0_usize; shapes.len() + 1];
         for (&row, &column) in rows.iter().zip(columns) {
-            let (node, place) = role_at(row)
-                .zip(role_at(column))
-                .and_then(|(a, b)| locate(shapes, a, b))
-                .ok_or(KktStructureError::ForeignEntry { row, column })?;
-            starts[node + 1] += 1;
-            located.push((node as u32, place));
+            let (Some(a), Some(b)) = (role_at(row), role_at(column)) else {
+                return Err(KktStructureError::ForeignEntry { row, column });
+            };
+            starts[a.0.min(b.0) as usize + 1] += 1;
         }
         for k in 0..shapes.len() {
             starts[k + 1] += starts[k];
         }
         let mut next = starts.clone();
-        let mut places = vec![Place::DefectCoupling { row: 0 }; rows.len()];
+        let mut places = vec![Place::new(Block::Leading, 0, 0); rows.len()];
         let mut triplets = vec![0; rows.len()];
-        for (triplet, (node, place)) in located.into_iter().enumerate() {
-            let position = &mut next[node as usize];
+        for ((&row, &column), number) in rows.iter().zip(columns).zip(0..) {
+            let (a, b) = (roles[row as usize], roles[column as usize]);
+            let Some(place) = locate(shapes, a, b) else {
+                return Err(KktStructureError::ForeignEntry { row, column });
+            };
+            let position = &mut next[a.0.min(b.0) as usize];
             places[*position] = place;
-            triplets[*position] = triplet as u32;
+            triplets[*position] = number;
             *position += 1;
         }
         Ok(Self { starts, places, triplets })
@@ -230,59 +231,58 @@ fn node_shapes(layout: &Layout) -> Result<Vec<NodeShape>, KktStructureError> {
     shapes.collect()
 }
 
-/// Node and place of the entry between two unknowns, or nothing when the structure has none.
-fn locate(shapes: &[NodeShape], a: (usize, Role), b: (usize, Role)) -> Option<(usize, Place)> {
+/// Place of the entry between two unknowns, or nothing when the structure has none. It belongs to
+/// the earlier of their nodes.
+#[inline(always)]
+fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<Place> {
     use Role::{Defect, Equality, Inequality, Slack, Variable};
-    let short = |i: usize| i as u16;
     let ((node, first), (other, second)) = if rank(a.1) <= rank(b.1) { (a, b) } else { (b, a) };
+    let shape = &shapes[node as usize];
     if let (Variable(i), Defect(row)) = (first, second)
         && node == other + 1
     {
-        return (i == row && i < shapes[node].states)
-            .then_some((other, Place::DefectCoupling { row: short(row) }));
+        let determined = i == row && (i as usize) < shape.states;
+        return determined.then_some(Place::new(Block::DefectCoupling, row as usize, 0));
     }
     if node != other {
         return None;
     }
-    let shape = &shapes[node];
-    // A variable is a state of the trailing block or a leading unknown; constraint columns list
-    // the leading ones first.
-    let state = |i: usize| (i < shape.states).then_some(i);
-    let leading = |i: usize| i - shape.states;
-    let column = |i: usize| match state(i) {
-        Some(i) => short(shape.free + i),
-        None => short(leading(i)),
-    };
-    let multiplier = |row: usize| shape.free + row;
-    let place = match (first, second) {
-        (Variable(i), Variable(j)) => match (state(i), state(j)) {
-            (Some(i), Some(j)) => Place::State { row: short(i.max(j)), column: short(i.min(j)) },
-            (Some(i), None) => Place::Cross { row: short(leading(j)), column: short(i) },
-            (None, Some(j)) => Place::Cross { row: short(leading(i)), column: short(j) },
-            (None, None) => {
-                Place::Leading { row: short(leading(i.min(j))), column: short(leading(i.max(j))) }
-            }
-        },
-        (Variable(i), Equality(row)) => match state(i) {
-            Some(i) => Place::Cross { row: short(multiplier(row)), column: short(i) },
-            None => Place::Leading { row: short(leading(i)), column: short(multiplier(row)) },
-        },
-        (Equality(i), Equality(j)) if i == j => {
-            Place::Leading { row: short(multiplier(i)), column: short(multiplier(i)) }
+    // A variable is a state of the trailing block or a leading unknown; the Jacobian's columns
+    // list the leading ones first.
+    let is_state = |i: u32| (i as usize) < shape.states;
+    let leading = |i: u32| i as usize - shape.states;
+    let column = |i: u32| if is_state(i) { shape.free + i as usize } else { leading(i) };
+    let multiplier = |row: u32| shape.free + row as usize;
+    let diagonal = |i: u32, j: u32, block| (i == j).then_some(Place::new(block, i as usize, 0));
+    match (first, second) {
+        (Variable(i), Variable(j)) => {
+            let (low, high) = (i.min(j), i.max(j));
+            Some(match (is_state(low), is_state(high)) {
+                (true, true) => Place::new(Block::State, high as usize, low as usize),
+                (true, false) => Place::new(Block::Cross, leading(high), low as usize),
+                _ => Place::new(Block::Leading, leading(low), leading(high)),
+            })
         }
-        (Variable(i), Defect(row)) => Place::Constraint { column: column(i), row: short(row) },
+        (Variable(i), Equality(row)) => Some(match is_state(i) {
+            true => Place::new(Block::Cross, multiplier(row), i as usize),
+            false => Place::new(Block::Leading, leading(i), multiplier(row)),
+        }),
+        (Equality(i), Equality(j)) => {
+            (i == j).then_some(Place::new(Block::Leading, multiplier(i), multiplier(i)))
+        }
+        (Variable(i), Defect(row)) => Some(Place::new(Block::Jacobian, row as usize, column(i))),
         (Variable(i), Inequality(row)) => {
-            Place::Constraint { column: column(i), row: short(shape.defects + row) }
+            Some(Place::new(Block::Jacobian, shape.defects + row as usize, column(i)))
         }
-        (Defect(i), Defect(j)) if i == j => Place::DefectDiagonal { row: short(i) },
-        (Slack(i), Slack(j)) if i == j => Place::SlackDiagonal { row: short(i) },
-        (Slack(i), Inequality(j)) if i == j => Place::SlackCoupling { row: short(i) },
-        (Inequality(i), Inequality(j)) if i == j => Place::InequalityDiagonal { row: short(i) },
-        _ => return None,
-    };
-    Some((node, place))
+        (Defect(i), Defect(j)) => diagonal(i, j, Block::DefectDiagonal),
+        (Slack(i), Slack(j)) => diagonal(i, j, Block::SlackDiagonal),
+        (Slack(i), Inequality(j)) => diagonal(i, j, Block::SlackCoupling),
+        (Inequality(i), Inequality(j)) => diagonal(i, j, Block::InequalityDiagonal),
+        _ => None,
+    }
 }
 
+#[inline(always)]
 fn rank(role: Role) -> u8 {
     match role {
         Role::Variable(_) => 0,

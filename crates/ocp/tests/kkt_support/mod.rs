@@ -1,6 +1,8 @@
 //! Random stage systems and a dense witness.
 #![allow(dead_code)]
 
+pub mod arm;
+
 use nalgebra::{DMatrix, DVector};
 use righting_ocp::kkt::{NodeDims, StageDims};
 
