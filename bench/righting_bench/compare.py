@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from .growth import JOINTS, STEPS, chain_scenario, grid_scenario
 from .machine import this_machine
 from .measurements import Measurements, casadi_key
 from .ours import VARIANTS, inlined, run_ours, summarise
@@ -121,14 +120,17 @@ def _derivatives(name: str, complete: bool) -> Iterator[tuple[str, list[str]]]:
 
 
 def _growth(root: Path, program: Path, kept: Measurements, run: str) -> None:
-    arm = root / "scenarios" / "slew_4dof.json"
-    for joints in JOINTS:
-        _announce(f"ours, chain of {joints} joints")
-        kept.keep(run, f"growth/joints/{joints}", summarise([run_ours(program, chain_scenario(arm, joints))]))
-    station = root / "scenarios" / "slew_canadarm2_table.json"
-    for steps in STEPS:
-        _announce(f"ours, {steps} steps")
-        kept.keep(run, f"growth/steps/{steps}", summarise([run_ours(program, grid_scenario(station, steps))]))
+    """What grows and how the linear solvers compare, by the example `costs` beside the program."""
+    costs = program.parent / "examples" / "costs"
+    if not costs.exists():
+        _announce(f"no program at {costs}: no growth")
+        return
+    for kind, key in (("joints", "joints"), ("steps", "steps"), ("linear-solvers", "scenario")):
+        _announce(f"ours, {kind}")
+        done = subprocess.run([costs, kind], cwd=root, stdout=subprocess.PIPE, text=True, check=False)
+        for line in done.stdout.splitlines():
+            record = json.loads(line)
+            kept.keep(run, f"{kind}/{record[key]}", record)
 
 
 def _casadi(root: Path, arguments: list[str]) -> dict | list | None:

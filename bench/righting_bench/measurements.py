@@ -13,8 +13,9 @@ FILE = "measurements.json"
 class Measurements:
     """Everything measured so far, newest by key.
 
-    A key is "casadi/SCENARIO/FORM/SOLVER/DERIVATIVES[/compiled]", "derivatives/SCENARIO/FORM/VARIANT" or
-    "ours/SCENARIO/VARIANT". Each value carries `run`, the start of the run that measured it.
+    A key is "casadi/SCENARIO/FORM/SOLVER/DERIVATIVES[/compiled]", "derivatives/SCENARIO/FORM/VARIANT",
+    "ours/SCENARIO/VARIANT", "joints/J", "steps/N" or "linear-solvers/SCENARIO". Each value carries `run`,
+    the start of the run that measured it.
     """
 
     folder: Path
