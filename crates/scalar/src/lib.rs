@@ -87,7 +87,10 @@ mod tests {
         let x = Dual::new(Dual64::new(2.0, 3.0), Dual64::new(4.0, 5.0));
         let y = Dual::new(Dual64::new(1.0, 0.0), Dual64::new(0.0, 0.0));
         let larger = x.maximum(y);
-        assert_eq!((larger.re.re, larger.re.eps, larger.eps.re, larger.eps.eps), (2.0, 3.0, 4.0, 5.0));
+        assert_eq!(
+            (larger.re.re, larger.re.eps, larger.eps.re, larger.eps.eps),
+            (2.0, 3.0, 4.0, 5.0)
+        );
         assert_eq!(x.minimum(y).eps.re, 0.0);
     }
 
