@@ -4,6 +4,7 @@ mod bad_input;
 mod documents;
 mod machine;
 mod program;
+mod scenarios;
 mod solve;
 mod streams;
 mod usage;
