@@ -33,20 +33,24 @@ static ALLOCATOR: Counting = Counting;
 #[test]
 fn factor_and_solve_allocate_nothing() {
     let arm = ArmSystem::new(7, 8, 20);
-    // Concave costs take the pivoting elimination.
+    // Controls that cost little by themselves and much in pairs take pivots of two.
+    let (states, joints) = (arm.dims.nodes()[1].states, arm.dims.nodes()[1].controls);
     let variables = arm.dims.nodes().iter().map(|node| node.states + node.controls).sum::<usize>();
+    let is_control =
+        |i: i32| (i as usize) < variables && (i as usize + states) % (states + joints) >= states;
     let constraints = arm.dims.nodes().iter().skip(1).map(|node| node.states + node.inequalities);
-    let (least, mut concave) = (constraints.sum::<usize>(), arm.values.clone());
-    for (t, value) in concave.iter_mut().enumerate() {
-        if arm.rows[t] == arm.columns[t] && (arm.rows[t] as usize) < variables {
-            *value -= 3.0;
+    let (least, mut saddle) = (constraints.sum::<usize>(), arm.values.clone());
+    for (t, value) in saddle.iter_mut().enumerate() {
+        let (row, column) = (arm.rows[t], arm.columns[t]);
+        if row != column && is_control(row) && is_control(column) {
+            *value *= 1e5;
         }
     }
     let mut solver = StageKkt::new(&arm.dims);
     solver.analyse(arm.order, &arm.rows, &arm.columns).unwrap();
     let mut rhs = vec![1.0; arm.order];
     let mut round = || {
-        for (values, is_convex) in [(&arm.values, true), (&concave, false)] {
+        for (values, is_convex) in [(&arm.values, true), (&saddle, false)] {
             let Factorization::Regular { negative_eigenvalues } = solver.factor(values) else {
                 panic!("a regular matrix");
             };

@@ -5,11 +5,11 @@
 //! [ M_tl  M_tt ]        what remains for the trailing block: M_tt − Rᵀ D R
 //! ```
 //!
-//! with rows `[L R]` unit upper triangular in their leading part. Positive definite leading blocks
-//! take plain pivots in order. Others take 1×1 and 2×2 pivots chosen for the smallest multipliers,
-//! those onto the trailing unknowns counted too; unknowns without an acceptable pivot
-//! are *delayed*: they stay, coupled to the trailing block, for the caller to eliminate elsewhere
-//! (the threshold and delayed pivoting of multifrontal solvers: Duff & Reid 1983, MA57).
+//! with rows `[L R]` unit upper triangular in their leading part. Blocks that allow it take plain
+//! pivots in order. Others take 1×1 and 2×2 pivots chosen for small multipliers, those onto
+//! the trailing unknowns counted too; unknowns without an acceptable pivot are *delayed*: they
+//! stay, coupled to the trailing block, for the caller to eliminate elsewhere (the threshold and
+//! delayed pivoting of multifrontal solvers: Duff & Reid 1983, MA57).
 
 use pulp::Simd;
 
@@ -17,6 +17,9 @@ use super::lanes::{AlignedVec, add_rows, reset, scale_row, vectors, vectors_mut}
 
 /// A pivot this small beside the terms it was summed from is rounding noise.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// Multipliers up to this are small enough not to look for better ones.
+const SMALL_MULTIPLIER: f64 = 100.0;
 
 /// Why a factorisation stops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,8 +92,8 @@ impl Elimination {
         &self.rows[k * self.stride..(k + 1) * self.stride]
     }
 
-    /// Eliminates the leading block, in order if it is positive definite; returns its negative
-    /// eigenvalues. See [`Self::eliminate_indefinite`].
+    /// Eliminates the leading block, in order if that is stable; returns its negative eigenvalues.
+    /// See [`Self::eliminate_pivoted`].
     #[inline(always)]
     pub fn eliminate<S: Simd>(
         &mut self,
@@ -100,26 +103,27 @@ impl Elimination {
         scaled: &mut [f64],
         tolerance: f64,
     ) -> Result<usize, Breakdown> {
-        if self.eliminate_definite(simd, matrix, scales, scaled, tolerance) {
-            return Ok(0);
+        match self.eliminate_in_order(simd, matrix, scales, scaled, tolerance) {
+            Some(negative) => Ok(negative),
+            None => self.eliminate_pivoted(matrix, scales, scaled, tolerance),
         }
-        self.eliminate_indefinite(matrix, scales, scaled, tolerance)
     }
 
-    /// Eliminates a positive definite leading block in order, from the upper triangle of `matrix`.
-    /// Leaves `D [L R]` in `scaled`. Returns false when a pivot is not clearly positive or a
-    /// multiplier exceeds `1/tolerance`: then [`Self::eliminate_indefinite`] has to do it.
+    /// Eliminates the leading block in order, from the upper triangle of `matrix`. Leaves
+    /// `D [L R]` in `scaled` and returns the number of negative pivots; nothing when a pivot may be
+    /// noise or a multiplier is too large: then [`Self::eliminate_pivoted`] has to do it.
     #[inline(always)]
-    fn eliminate_definite<S: Simd>(
+    fn eliminate_in_order<S: Simd>(
         &mut self,
         simd: S,
         matrix: &[f64],
         scales: &[f64],
         scaled: &mut [f64],
         tolerance: f64,
-    ) -> bool {
+    ) -> Option<usize> {
         let (stride, lanes) = (self.stride, S::F64_LANES);
         let mut largest = simd.splat_f64s(0.0);
+        let mut negative = 0;
         for k in 0..self.size {
             // Vectors before the diagonal's are zero, or symmetric to what is done.
             let start = k / lanes;
@@ -132,10 +136,11 @@ impl Elimination {
             let out = &mut vectors_mut::<S>(row)[start..];
             add_rows(simd, out, vectors::<S>(&self.rows), terms);
             let pivot = row[k];
-            let clearly_positive = pivot > NOISE * scales[k];
-            if !clearly_positive {
-                return false;
+            let is_clear = pivot.abs() > NOISE * scales[k];
+            if !is_clear {
+                return None;
             }
+            negative += usize::from(pivot < 0.0);
             row[start * lanes..=k].fill(0.0);
             let inverse = 1.0 / pivot;
             let unit = vectors_mut::<S>(&mut self.rows[k * stride..(k + 1) * stride]);
@@ -143,13 +148,15 @@ impl Elimination {
             self.inverse_pivots.push(inverse);
         }
         self.eliminated = self.size;
-        simd.reduce_max_f64s(largest) * tolerance <= 1.0
+        // A definite block cannot grow; there the limit is for the trailing block alone.
+        let limit = if negative == 0 { 1.0 / tolerance } else { SMALL_MULTIPLIER };
+        (simd.reduce_max_f64s(largest) <= limit).then_some(negative)
     }
 
     /// Eliminates any leading block with threshold pivoting, from the upper triangle of `matrix`.
     /// Leaves `D [L R]` of the eliminated rows in `scaled`; returns the number of negative
     /// eigenvalues of D.
-    pub fn eliminate_indefinite(
+    pub fn eliminate_pivoted(
         &mut self,
         matrix: &[f64],
         scales: &[f64],
@@ -189,10 +196,9 @@ impl Elimination {
         Ok(negative)
     }
 
-    /// The pivot with the smallest multipliers, if they do not exceed `1/tolerance`.
+    /// The first pivot with small multipliers, or that with the smallest if they do not exceed
+    /// `1/tolerance`.
     fn choose_pivot(&self, tolerance: f64) -> Result<Option<Pivot>, Breakdown> {
-        /// Multipliers that are as good as any.
-        const SMALL: f64 = 4.0;
         let first = self.eliminated;
         let mut best = (f64::INFINITY, None);
         for i in first..self.size {
@@ -205,17 +211,21 @@ impl Elimination {
             if pivot.max(beside) <= NOISE * self.scales[i] {
                 return Err(Breakdown::Singular);
             }
-            if pivot > NOISE * self.scales[i] && beside < best.0 * pivot {
+            if pivot <= NOISE * self.scales[i] {
+                continue;
+            }
+            if beside <= SMALL_MULTIPLIER * pivot {
+                return Ok(Some(Pivot::Single(i)));
+            }
+            if beside < best.0 * pivot {
                 best = (beside / pivot, Some(Pivot::Single(i)));
             }
         }
-        if best.0 > SMALL {
-            for i in first..self.size {
-                for j in i + 1..self.size {
-                    let multiplier = self.pair_multiplier(i, j);
-                    if multiplier < best.0 {
-                        best = (multiplier, Some(Pivot::Pair(i, j)));
-                    }
+        for i in first..self.size {
+            for j in i + 1..self.size {
+                let multiplier = self.pair_multiplier(i, j);
+                if multiplier < best.0 {
+                    best = (multiplier, Some(Pivot::Pair(i, j)));
                 }
             }
         }

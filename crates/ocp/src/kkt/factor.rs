@@ -151,7 +151,7 @@ impl Factor<'_> {
         negative += if shape.equalities == 0 && delayed == 0 {
             node.leading.eliminate(simd, matrix, scales, scaled, self.tolerance)?
         } else {
-            node.leading.eliminate_indefinite(matrix, scales, scaled, self.tolerance)?
+            node.leading.eliminate_pivoted(matrix, scales, scaled, self.tolerance)?
         };
         let (assembly, value) = (&work.assembly, &mut work.value);
         work.image.cost_to_go(simd, pattern, node, assembly, &work.scaled, value)?;

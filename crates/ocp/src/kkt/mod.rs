@@ -26,14 +26,15 @@
 //! defect multiplier is the pivot `[[P, I], [I, 0]]`, with as many negative eigenvalues as the
 //! defect has rows; the inertia of all pivots together is that of the matrix.
 //!
-//! * Positive definite M_uu, the case that Ipopt accepts, take plain pivots. Indefinite ones
-//!   take 1×1 and 2×2 threshold pivots; unknowns without an acceptable pivot wait and become
-//!   unknowns of the node before, so that any regular matrix is factorised, and multipliers of one
-//!   node's equalities are no special case: they are unknowns without a pivot of their own.
+//! * M_uu takes plain pivots where that is stable, as it is whenever Ipopt accepts the matrix.
+//!   Elsewhere it takes 1×1 and 2×2 threshold pivots; unknowns without an acceptable pivot wait and
+//!   become unknowns of the node before, so that any regular matrix is factorised. Multipliers of
+//!   one node's equalities are no special case: they are unknowns without a pivot of their own.
 //! * Regularised defects, `[[P, I], [I, −Δ]]`, are exact too: P is replaced by `P (I + ΔP)⁻¹`.
 //! * The rows of `[B A]` are as sparse as they are found: a joint's double integrator costs
 //!   two or three multiplications a column where a dense row costs the row's length.
-//! * All rows are padded to whole SIMD vectors; the lanes are chosen at run time.
+//! * All rows are padded to whole SIMD vectors; the lanes are chosen at run time. Results do
+//!   not depend on them beyond rounding.
 
 mod assembly;
 mod delayed;
