@@ -4,6 +4,17 @@
 //! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
 //! files hold.
 //!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! let folder = Path::new("out/demo");
+//! let plan = righting_maneuver::verify_directory(folder)?;
+//! let figure = righting_report::attitude_svg(&plan.solution, &plan.trajectory);
+//! righting_report::write_whole(folder, "attitude.svg", figure.as_bytes())?;
+//! print!("{}", righting_report::verification_summary(&plan.solution));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Figures are written as SVG by a small writer of their own rather than through a plotting crate:
 //! measured on the joints of a 7-joint arm (21 panels of 600 steps), plotters' SVG backend rounds
 //! every point to a whole pixel and spends an element on every dash, 710 kB in 6 300 elements
