@@ -7,6 +7,7 @@
 mod blas;
 mod build;
 mod doctor;
+mod envelope;
 mod failure;
 mod interrupt;
 mod output;
@@ -42,6 +43,7 @@ Exit codes:
 enum Command {
     Solve(solve::Arguments),
     Verify(verify::Arguments),
+    Envelope(envelope::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
     let result = match command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
@@ -67,6 +70,7 @@ impl Command {
         match self {
             Self::Solve(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
+            Self::Envelope(arguments) => arguments.json,
             Self::Schema(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }

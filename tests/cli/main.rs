@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod documents;
+mod envelope;
 mod machine;
 mod program;
 mod scenarios;

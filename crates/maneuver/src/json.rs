@@ -52,6 +52,11 @@ impl Document {
         decode::decode(&self.root).map_err(|field| self.refuse(field))
     }
 
+    /// Whether the file holds an object with this key.
+    pub(crate) fn has_key(&self, key: &str) -> bool {
+        self.root.get(key).is_some()
+    }
+
     fn refuse(&self, field: FieldError) -> Error {
         Error::Field { file: self.file.clone(), field: Box::new(field) }
     }

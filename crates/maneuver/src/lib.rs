@@ -41,11 +41,13 @@
 
 pub mod collision;
 pub mod detumble;
+pub mod envelope;
 pub mod error;
 pub mod file;
 mod files;
 mod formulation;
 mod halton;
+pub mod hull;
 pub mod initial;
 mod json;
 mod outcome;
@@ -60,8 +62,10 @@ pub mod trajectory;
 pub mod trajectory_csv;
 pub mod verification;
 pub mod verifier;
+pub mod wheels;
 
 pub use collision::CollisionModel;
+pub use envelope::{Envelope, Envelopes, envelopes};
 pub use error::Error;
 pub use formulation::FormulatedManeuver;
 pub use initial::Initial;
@@ -73,3 +77,4 @@ pub use system_description::{JointLimits, SystemDescription};
 pub use trajectory::{Interval, Node, Trajectory};
 pub use verification::{Check, Sense, Verification};
 pub use verifier::{Verified, verify, verify_directory};
+pub use wheels::WheelArray;

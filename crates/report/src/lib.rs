@@ -24,6 +24,7 @@
 mod asked;
 mod attitude;
 mod axis;
+mod envelope;
 mod error;
 mod figure;
 mod files;
@@ -35,6 +36,7 @@ mod summary;
 mod svg;
 
 pub use attitude::attitude_svg;
+pub use envelope::{EnvelopeOutlines, envelope_svg};
 pub use error::ReportError;
 pub use files::write_whole;
 pub use joints::joints_svg;

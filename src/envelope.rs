@@ -1,0 +1,162 @@
+//! `righting envelope`: what an arm can give, beside reaction wheels.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use righting_maneuver::envelope::{Sizing, read_system_or_scenario};
+use righting_maneuver::hull::Mesh;
+use righting_maneuver::wheels::{Radii, Wheel};
+use righting_maneuver::{Envelope, WheelArray, envelopes};
+use righting_report::{EnvelopeOutlines, envelope_svg, write_whole};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::output;
+use crate::output_folder::OutputFolder;
+
+/// Compare an arm's momentum and torque envelopes with those of reaction wheels.
+#[derive(Args)]
+pub struct Arguments {
+    /// A system file, or a scenario file for its system.
+    #[arg(value_name = "SYSTEM_OR_SCENARIO")]
+    file: PathBuf,
+    /// Number of uniform samples.
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    samples: u32,
+    /// Seed of the samples.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// The wheels; a pyramid of four, 1 N m s and 0.1 N m each, if not given.
+    #[arg(long, value_name = "FILE")]
+    wheels: Option<PathBuf>,
+    /// The folder for envelope.json, envelope.svg and the meshes.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What envelope.json holds and `--json` prints.
+#[derive(Serialize)]
+struct Printed<'a> {
+    schema: &'static str,
+    system: &'a str,
+    samples: u32,
+    seed: u64,
+    momentum_n_m_s: &'a Envelope,
+    torque_n_m: &'a Envelope,
+    wheels: PrintedWheels<'a>,
+}
+
+#[derive(Serialize)]
+struct PrintedWheels<'a> {
+    array: &'a [Wheel],
+    momentum_max_n_m_s: f64,
+    momentum_min_n_m_s: f64,
+    momentum_rms_n_m_s: f64,
+    momentum_volume: f64,
+    torque_max_n_m: f64,
+    torque_min_n_m: f64,
+    torque_rms_n_m: f64,
+    torque_volume: f64,
+}
+
+/// Reads, searches, writes and prints.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let system = read_system_or_scenario(&arguments.file)?;
+    let wheels = match &arguments.wheels {
+        Some(file) => WheelArray::read(file)?,
+        None => WheelArray::pyramid(),
+    };
+    let folder = OutputFolder::open(&arguments.out)?;
+    let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);
+    let zonotopes = [wheels.momentum(), wheels.torque()];
+    let [momentum, torque] = [zonotopes[0].radii(), zonotopes[1].radii()];
+    let printed = Printed {
+        schema: "righting.envelope/1",
+        system: &system.name,
+        samples: arguments.samples,
+        seed: arguments.seed,
+        momentum_n_m_s: &found.momentum,
+        torque_n_m: &found.torque,
+        wheels: PrintedWheels {
+            array: wheels.wheels(),
+            momentum_max_n_m_s: momentum.max,
+            momentum_min_n_m_s: momentum.min,
+            momentum_rms_n_m_s: momentum.rms,
+            momentum_volume: zonotopes[0].volume(),
+            torque_max_n_m: torque.max,
+            torque_min_n_m: torque.min,
+            torque_rms_n_m: torque.rms,
+            torque_volume: zonotopes[1].volume(),
+        },
+    };
+    let mut json = serde_json::to_string_pretty(&printed)
+        .map_err(|error| Failure::Stdout(std::io::Error::other(error)))?;
+    json.push('\n');
+    let [momentum_mesh, torque_mesh] = [zonotopes[0].mesh(), zonotopes[1].mesh()];
+    let outlines = |envelope: &Envelope, wheels: &Mesh| EnvelopeOutlines {
+        arm: envelope.extreme_points.clone(),
+        sampled: envelope.sampled_hull.vertices.clone(),
+        wheels: wheels.vertices.clone(),
+    };
+    let figure = envelope_svg(
+        &system.name,
+        &outlines(&found.momentum, &momentum_mesh),
+        &outlines(&found.torque, &torque_mesh),
+    );
+    let meshes = [
+        ("momentum_arm.obj", &found.momentum.hull),
+        ("momentum_sampled.obj", &found.momentum.sampled_hull),
+        ("momentum_wheels.obj", &momentum_mesh),
+        ("torque_arm.obj", &found.torque.hull),
+        ("torque_sampled.obj", &found.torque.sampled_hull),
+        ("torque_wheels.obj", &torque_mesh),
+    ];
+    for (name, mesh) in meshes {
+        write_whole(folder.path(), name, mesh.to_obj().as_bytes())?;
+    }
+    write_whole(folder.path(), "envelope.svg", figure.as_bytes())?;
+    write_whole(folder.path(), "envelope.json", json.as_bytes())?;
+    if arguments.json {
+        output::print(&json)
+    } else {
+        output::print(&describe(&printed, [momentum, torque]))
+    }
+}
+
+fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
+    let mut text = format!("{:<34}{:>14}{:>14}\n", printed.system, "H [N m s]", "T [N m]");
+    let [h, t] = [printed.momentum_n_m_s, printed.torque_n_m];
+    let mut row = |name: &str, h: f64, t: f64| {
+        writeln!(text, "{name:<34}{h:>14.4}{t:>14.4}").expect("a string takes all that is written");
+    };
+    row(&format!("arm, {} samples, max", printed.samples), h.sampled_max, t.sampled_max);
+    row("arm, true max", h.true_max, t.true_max);
+    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        row(&format!("arm, along {axis}"), h.per_axis_max[i], t.per_axis_max[i]);
+    }
+    row("arm, least of all directions", h.true_min, t.true_min);
+    row(&format!("{} wheels, max", printed.wheels.array.len()), wheels[0].max, wheels[1].max);
+    row("wheels, min", wheels[0].min, wheels[1].min);
+    row("wheels, root mean square", wheels[0].rms, wheels[1].rms);
+    row("volume, sampled hull", h.hull_volume, t.hull_volume);
+    row("volume, true, at least", h.true_volume, t.true_volume);
+    row("volume, wheels", printed.wheels.momentum_volume, printed.wheels.torque_volume);
+    text.push_str("To match in every direction, times\n");
+    let factor =
+        |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.3}"));
+    let sizes: [(&str, fn(&Sizing) -> Option<f64>); 3] = [
+        ("  the arm's link lengths", |sizing| sizing.arm_length_factor),
+        ("  or the arm's link masses", |sizing| sizing.arm_mass_factor),
+        ("  or the wheels' limits", |sizing| sizing.wheel_limit_factor),
+    ];
+    for (name, of) in sizes {
+        let [h, t] = [factor(of(&h.sizing)), factor(of(&t.sizing))];
+        writeln!(text, "{name:<34}{h:>14}{t:>14}").expect("a string takes all that is written");
+    }
+    text
+}
