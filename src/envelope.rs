@@ -132,7 +132,9 @@ fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
     let mut text = format!("{:<34}{:>14}{:>14}\n", printed.system, "H [N m s]", "T [N m]");
     let [h, t] = [printed.momentum_n_m_s, printed.torque_n_m];
     let mut row = |name: &str, h: f64, t: f64| {
-        writeln!(text, "{name:<34}{h:>14.4}{t:>14.4}").expect("a string takes all that is written");
+        let shown = |x: f64| if x < 1e6 { format!("{x:.4}") } else { format!("{x:.4e}") };
+        writeln!(text, "{name:<34}{:>14}{:>14}", shown(h), shown(t))
+            .expect("a string takes all that is written");
     };
     row(&format!("arm, {} samples, max", printed.samples), h.sampled_max, t.sampled_max);
     row("arm, true max", h.true_max, t.true_max);
