@@ -151,14 +151,13 @@ fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
     text.push_str("To match in every direction, times\n");
     let factor =
         |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.3}"));
-    let sizes: [(&str, fn(&Sizing) -> Option<f64>); 3] = [
-        ("  the arm's link lengths", |sizing| sizing.arm_length_factor),
-        ("  or the arm's link masses", |sizing| sizing.arm_mass_factor),
-        ("  or the wheels' limits", |sizing| sizing.wheel_limit_factor),
-    ];
-    for (name, of) in sizes {
-        let [h, t] = [factor(of(&h.sizing)), factor(of(&t.sizing))];
-        writeln!(text, "{name:<34}{h:>14}{t:>14}").expect("a string takes all that is written");
-    }
+    let mut sizes = |name: &str, h: Option<f64>, t: Option<f64>| {
+        writeln!(text, "{name:<34}{:>14}{:>14}", factor(h), factor(t))
+            .expect("a string takes all that is written");
+    };
+    let [h, t]: [&Sizing; 2] = [&h.sizing, &t.sizing];
+    sizes("  the arm's link lengths", h.arm_length_factor, t.arm_length_factor);
+    sizes("  or the arm's link masses", h.arm_mass_factor, t.arm_mass_factor);
+    sizes("  or the wheels' limits", h.wheel_limit_factor, t.wheel_limit_factor);
     text
 }
