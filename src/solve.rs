@@ -8,8 +8,8 @@ use righting_maneuver::detumble::rate_bound_rad_s;
 use righting_maneuver::solution::SCHEMA;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_maneuver::{
-    Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory, Verification,
-    Versions, plan, verify,
+    IterationRecord, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory,
+    Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
 use righting_report::{attitude_svg, joints_svg, summary, write_whole};
@@ -29,6 +29,10 @@ pub struct Arguments {
     /// The folder for trajectory.csv, solution.json, attitude.svg and joints.svg; made if missing.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// An earlier result folder of the same arm (another angle, axis, duration, grid or mass) to
+    /// start from too.
+    #[arg(long, value_name = "DIR")]
+    warm_start: Option<PathBuf>,
     /// Print the contents of solution.json and the files' paths as one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -48,13 +52,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let scenario = Scenario::read(&arguments.scenario)?;
     let load = started.elapsed();
+    let earlier = match &arguments.warm_start {
+        Some(folder) => Some(Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?),
+        None => None,
+    };
     let folder = OutputFolder::open(&arguments.out)?;
 
     let progress = Progress::start();
-    let plan = plan(&scenario, &mut |record| {
+    let mut on_iteration = |record: &IterationRecord| {
         progress.show(record);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
-    })?;
+    };
+    let plan = match &earlier {
+        Some(earlier) => plan_from(&scenario, earlier, &mut on_iteration)?,
+        None => plan(&scenario, &mut on_iteration)?,
+    };
     progress.show_stage("verifying");
     let checking = Instant::now();
     let verification = match plan.status.is_acceptable() {
@@ -125,6 +137,7 @@ fn assemble(
         verification,
         bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
         reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
+        notes: plan.notes.clone(),
         history: plan.history.clone(),
     }
 }

@@ -8,6 +8,7 @@ use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolve
 
 use crate::error::ShapeError;
 use crate::formulation::Coordinates;
+use crate::open_ways::open_ways;
 use crate::scenario::Scenario;
 use crate::search::Search;
 use crate::solution::{IterationRecord, Status};
@@ -32,6 +33,8 @@ pub struct Plan {
     pub rungs: Vec<Rung>,
     /// What factorised the linear systems of the last solve.
     pub linear_solver: UsedLinearSolver,
+    /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
+    pub notes: Vec<String>,
     /// Where the time went.
     pub timing: PlanTiming,
 }
@@ -83,6 +86,25 @@ pub fn plan(
     plan_with_threads(scenario, cores, on_iteration)
 }
 
+/// [`plan`] with one more start: an earlier plan of the same arm for another angle, axis, duration,
+/// grid or mass.
+///
+/// # Errors
+/// Those of [`plan`]; [`PlanError::Shape`] when the earlier plan's arm has another number of joints.
+pub fn plan_from(
+    scenario: &Scenario,
+    earlier: &Trajectory,
+    on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
+) -> Result<Plan, PlanError> {
+    let joints = scenario.system().joint_count();
+    if earlier.joints() != joints {
+        let what = "joints of the earlier plan".to_owned();
+        return Err(ShapeError { what, found: earlier.joints(), needed: joints }.into());
+    }
+    let cores = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    search(Search::new(scenario, cores, Some(earlier), on_iteration)?, scenario)
+}
+
 /// [`plan`] with so many starts at a time at most.
 ///
 /// # Errors
@@ -92,22 +114,35 @@ pub fn plan_with_threads(
     threads: NonZeroUsize,
     on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
 ) -> Result<Plan, PlanError> {
-    let mut search = Search::new(scenario, threads, on_iteration)?;
+    search(Search::new(scenario, threads, None, on_iteration)?, scenario)
+}
+
+fn search(mut search: Search<'_>, scenario: &Scenario) -> Result<Plan, PlanError> {
     let started = Instant::now();
     let coarse = search.best_coarse_solution()?;
     let guess = started.elapsed();
 
     let started = Instant::now();
     let solution = search.finish(coarse)?;
+    let (solution, is_minimum) = search.off_saddles(solution)?;
     let solve = started.elapsed();
     let evaluate = solution.timing.evaluation.total();
     let linear_algebra = match solution.timing.linear_solver {
         Some(linear_solver) => linear_solver.total(),
         None => solution.timing.total.saturating_sub(evaluate),
     };
+    let status = match status(solution.status) {
+        _ if search.is_interrupted() => Status::Interrupted,
+        Status::Solved if !is_minimum => Status::Acceptable,
+        status => status,
+    };
+    let trajectory = trajectory(scenario, search.coordinates(), &solution)?;
+    let mut notes = search.notes;
+    notes.extend(open_ways(scenario, &trajectory, status));
     Ok(Plan {
-        trajectory: trajectory(scenario, search.coordinates(), &solution)?,
-        status: if search.is_interrupted() { Status::Interrupted } else { status(solution.status) },
+        trajectory,
+        status,
+        notes,
         objective: solution.objective,
         iterations: solution.iterations(),
         constraint_violation: solution.constraint_violation,

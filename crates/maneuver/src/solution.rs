@@ -48,6 +48,9 @@ pub struct Solution {
     /// Detumble: how much of the initial angular rate the plan takes out, %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduction_percent: Option<f64>,
+    /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// One record an iteration, the starting point first; of the last solve if there were several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<IterationRecord>,

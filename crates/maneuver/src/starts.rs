@@ -2,11 +2,13 @@
 
 use std::f64::consts::PI;
 
+use righting_multibody::State;
 use righting_ocp::Guess;
 
 use crate::formulation::Coordinates;
 use crate::halton::Halton;
 use crate::scenario::Scenario;
+use crate::trajectory::Trajectory;
 
 /// How far a swing takes a joint without limits, rad.
 const FREE_SWING_RAD: f64 = 2.0;
@@ -37,21 +39,95 @@ impl Swings<'_> {
         std::iter::from_fn(move || Some(self.swing(&points.next()?, &points.next()?)))
     }
 
-    fn swing(&self, reach: &[f64], back: &[f64]) -> Guess {
+    /// The `count` of the first `screened` swings after which the base turns slowest once they are
+    /// rolled out.
+    pub(crate) fn slowest(&self, screened: usize, count: usize) -> Vec<Guess> {
+        let mut rolled: Vec<(f64, Guess)> = self
+            .from(0)
+            .take(screened)
+            .map(|swing| self.rolled_out(swing))
+            .map(|swing| {
+                let end = self.coordinates.free_floating_state(swing.states.row(self.steps));
+                (end.angular_rate.norm(), swing)
+            })
+            .collect();
+        rolled.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        rolled.into_iter().take(count).map(|(_, swing)| swing).collect()
+    }
+
+    /// The motion that the guess's controls make: its base turns as momentum has it.
+    pub(crate) fn rolled_out(&self, mut guess: Guess) -> Guess {
+        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
+        let mut x = self.initial.to_vec();
+        for step in 0..self.steps {
+            let u = guess.controls.row(step);
+            let after = |rates: &[f64], share: f64| -> Vec<f64> {
+                x.iter().zip(rates).map(|(x, rate)| x + share * step_s * rate).collect()
+            };
+            let k1 = self.coordinates.rates(&x, u);
+            let k2 = self.coordinates.rates(&after(&k1, 0.5), u);
+            let k3 = self.coordinates.rates(&after(&k2, 0.5), u);
+            let k4 = self.coordinates.rates(&after(&k3, 1.0), u);
+            for (i, x) in x.iter_mut().enumerate() {
+                *x += step_s / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+            }
+            guess.states.row_mut(step + 1).copy_from_slice(&x);
+        }
+        guess
+    }
+
+    /// The motion of an earlier plan of the same arm, stretched to this horizon.
+    pub(crate) fn along(&self, plan: &Trajectory) -> Guess {
         let mut guess = self.constant();
+        let old_steps = plan.steps();
+        let faster = plan.end().time_s / self.scenario.horizon().duration_s;
+        for node in 1..=self.steps {
+            let position = node as f64 * old_steps as f64 / self.steps as f64;
+            let before = (position.floor() as usize).min(old_steps - 1);
+            let share = position - before as f64;
+            let [a, b] = [before, before + 1].map(|node| plan.nodes()[node].state().to_vec());
+            let blend: Vec<f64> =
+                a.iter().zip(&b).map(|(a, b)| (1.0 - share) * a + share * b).collect();
+            let mut state = State::from_slice(&blend).expect("a state of the same arm");
+            state.attitude = state.attitude.normalized();
+            state.joint_rates.iter_mut().for_each(|rate| *rate *= faster);
+            let row = self.coordinates.of_free_floating_state(&state);
+            guess.states.row_mut(node).copy_from_slice(&row);
+        }
+        for step in 0..self.steps {
+            let middle = (step as f64 + 0.5) / self.steps as f64;
+            let old = &plan.intervals()[((middle * old_steps as f64) as usize).min(old_steps - 1)];
+            let controls = guess.controls.row_mut(step);
+            for (control, acceleration) in controls.iter_mut().zip(&old.joint_accelerations_rad_s2)
+            {
+                *control = acceleration * faster * faster;
+            }
+        }
+        guess
+    }
+
+    fn swing(&self, reach: &[f64], back: &[f64]) -> Guess {
         let duration_s = self.scenario.horizon().duration_s;
         let limits = &self.scenario.system().joint_limits;
-        for (joint, limits) in limits.iter().enumerate() {
-            let (angle, rate) =
-                (self.coordinates.joint_angle(joint), self.coordinates.joint_rate(joint));
-            let start = self.initial[angle];
+        let motions = limits.iter().enumerate().map(|(joint, limits)| {
+            let start = self.initial[self.coordinates.joint_angle(joint)];
             let signed = 2.0 * reach[joint] - 1.0;
             let room = match signed > 0.0 {
                 true => limits.angle_max_rad - start,
                 false => start - limits.angle_min_rad,
             };
             let amplitude = signed * room.clamp(0.0, FREE_SWING_RAD) * LIMIT_SHARE;
-            let motion = Motion { amplitude, back: back[joint], duration_s };
+            Motion { amplitude, back: back[joint], duration_s }
+        });
+        self.moved(&motions.collect::<Vec<_>>())
+    }
+
+    /// The joints move so, and the base's attitude is held.
+    fn moved(&self, motions: &[Motion]) -> Guess {
+        let mut guess = self.constant();
+        for (joint, motion) in motions.iter().enumerate() {
+            let (angle, rate) =
+                (self.coordinates.joint_angle(joint), self.coordinates.joint_rate(joint));
             for node in 1..=self.steps {
                 let row = guess.states.row_mut(node);
                 let phase = node as f64 / self.steps as f64;

@@ -33,6 +33,7 @@ fn folder() -> TempDir {
         verification: verify(&scenario, &trajectory),
         bound_deg_s: None,
         reduction_percent: None,
+        notes: Vec::new(),
         history: Vec::new(),
     };
     let folder = tempfile::tempdir().unwrap();

@@ -40,6 +40,9 @@ pub fn summary(solution: &Solution, files: &[PathBuf]) -> String {
         solution.objective,
     ));
     line(format_args!("  reached  {}", reached(solution)));
+    for note in &solution.notes {
+        line(format_args!("  note     {note}"));
+    }
     line(format_args!(""));
     line(format_args!("{}", verdict(solution)));
     for row in table(&solution.verification.checks) {

@@ -2,6 +2,7 @@
 
 mod model;
 mod parallel;
+mod saddle;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,8 +15,10 @@ use righting_ocp::{
 
 use crate::file::{self, Formulation, NamedGuess, RandomStarts};
 use crate::formulation::Coordinates;
-use crate::scenario::{MAX_STARTS, Scenario};
+use crate::scenario::{MAX_STARTS, Maneuver, Scenario};
 use crate::solution::IterationRecord;
+use crate::starts::Swings;
+use crate::trajectory::Trajectory;
 use model::Model;
 use parallel::Batch;
 
@@ -31,6 +34,13 @@ const REFINEMENT: usize = 6;
 /// Swings that the automatic guess tries beside the constant one.
 const AUTO_SWINGS: usize = 4;
 
+/// Of how many swings a detumble's automatic guess tries those that slow the base most.
+const SCREENED_SWINGS: usize = 32;
+/// From here on a slew has so many optima that more starts pay.
+const LARGE_SLEW_RAD: f64 = 0.5;
+/// How many more: these are rolled out.
+const LARGE_SLEW_SWINGS: usize = 5;
+
 /// The solves that lead to a plan.
 pub(crate) struct Search<'a> {
     scenario: &'a Scenario,
@@ -43,6 +53,10 @@ pub(crate) struct Search<'a> {
     /// How many starts are solved at a time at most.
     threads: NonZeroUsize,
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
+    /// An earlier plan to start from too.
+    neighbor: Option<&'a Trajectory>,
+    /// What a reader of the plan should know.
+    pub(crate) notes: Vec<String>,
     /// Every solve so far.
     pub(crate) rungs: Vec<Rung>,
     /// Time spent tracing and compiling.
@@ -54,6 +68,7 @@ impl<'a> Search<'a> {
     pub(crate) fn new(
         scenario: &'a Scenario,
         threads: NonZeroUsize,
+        neighbor: Option<&'a Trajectory>,
         on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
@@ -71,6 +86,8 @@ impl<'a> Search<'a> {
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
             threads,
             on_iteration,
+            neighbor,
+            notes: Vec::new(),
             rungs: Vec::new(),
             trace: started.elapsed(),
             stop: AtomicBool::new(false),
@@ -93,22 +110,23 @@ impl<'a> Search<'a> {
         let grid = self.grid.with_steps(self.grid.steps().min(COARSE_STEPS))?;
         let scout = self.scout.as_ref().unwrap_or(&self.model);
         let swings = scout.swings(self.scenario, grid.steps());
-        let count = swing_count(self.scenario);
-        if count == 0 {
+        let cold = coarse_settings(self.scenario);
+        let mut starts: Vec<(Guess, Settings)> = guesses(self.scenario, &swings)
+            .into_iter()
+            .map(|guess| (guess, cold.clone()))
+            .collect();
+        if let Some(neighbor) = self.neighbor {
+            starts.push((swings.along(neighbor), close_guess_settings(&cold)));
+        }
+        if starts.is_empty() {
             return Ok(None);
         }
-        let starts: Vec<Guess> = std::iter::once(swings.constant())
-            .chain(swings.from(first_swing(self.scenario)).take(count))
-            .collect();
-        let mut settings = settings(self.scenario);
-        settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
-        settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
-        let batch = Batch { model: scout, grid, starts: &starts, settings: &settings };
+        let batch = Batch { model: scout, grid, starts: &starts };
         let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
         let mut best: Option<Solution> = None;
         for solution in solutions {
-            let (status, iterations) = (solution.status, solution.iterations());
-            self.rungs.push(Rung { steps: grid.steps(), status, iterations });
+            let status = solution.status;
+            self.rungs.push(rung(grid, &solution));
             let better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
             if status.is_success() && better {
                 best = Some(solution);
@@ -132,11 +150,7 @@ impl<'a> Search<'a> {
             &settings,
             stoppable(self.on_iteration, &self.stop),
         )?;
-        self.rungs.push(Rung {
-            steps: self.grid.steps(),
-            status: solution.status,
-            iterations: solution.iterations(),
-        });
+        self.rungs.push(rung(self.grid, &solution));
         Ok(solution)
     }
 
@@ -164,11 +178,7 @@ impl<'a> Search<'a> {
             let close = close_guess_settings(&settings);
             start =
                 self.model.solve(grid, guess, &close, stoppable(self.on_iteration, &self.stop))?;
-            self.rungs.push(Rung {
-                steps: grid.steps(),
-                status: start.status,
-                iterations: start.iterations(),
-            });
+            self.rungs.push(rung(grid, &start));
             if !start.status.is_success() {
                 return Ok(None);
             }
@@ -186,6 +196,10 @@ impl<'a> Search<'a> {
     }
 }
 
+fn rung(grid: Grid, solution: &Solution) -> Rung {
+    Rung { steps: grid.steps(), status: solution.status, iterations: solution.iterations() }
+}
+
 /// Passes iterations on until one is answered with a stop.
 fn stoppable<'a>(
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
@@ -198,6 +212,35 @@ fn stoppable<'a>(
         stop.store(true, Ordering::Relaxed);
         Control::Stop
     }
+}
+
+/// The starts that the scenario asks for; none if nothing is compared.
+fn guesses(scenario: &Scenario, swings: &Swings<'_>) -> Vec<Guess> {
+    let count = swing_count(scenario);
+    if count == 0 {
+        return Vec::new();
+    }
+    let mut guesses = vec![swings.constant()];
+    let is_auto = scenario.solver().guess == file::Guess::Named(NamedGuess::Auto);
+    match scenario.maneuver() {
+        Maneuver::Detumble if is_auto => guesses.extend(swings.slowest(SCREENED_SWINGS, count)),
+        Maneuver::Slew(slew) if is_auto => {
+            guesses.extend(swings.from(0).take(count));
+            if slew.target.angle_to(&scenario.initial().attitude) > LARGE_SLEW_RAD {
+                let more = swings.from(count as u64).take(LARGE_SLEW_SWINGS);
+                guesses.extend(more.map(|swing| swings.rolled_out(swing)));
+            }
+        }
+        _ => guesses.extend(swings.from(first_swing(scenario)).take(count)),
+    }
+    guesses
+}
+
+fn coarse_settings(scenario: &Scenario) -> Settings {
+    let mut settings = settings(scenario);
+    settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
+    settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
+    settings
 }
 
 fn settings(scenario: &Scenario) -> Settings {

@@ -21,8 +21,7 @@ enum Event {
 pub(super) struct Batch<'a> {
     pub(super) model: &'a Model,
     pub(super) grid: Grid,
-    pub(super) starts: &'a [Guess],
-    pub(super) settings: &'a Settings,
+    pub(super) starts: &'a [(Guess, Settings)],
 }
 
 impl Batch<'_> {
@@ -36,7 +35,7 @@ impl Batch<'_> {
         on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
         stop: &AtomicBool,
     ) -> Result<Vec<Solution>, OcpError> {
-        let Batch { model, grid, starts, settings } = *self;
+        let Batch { model, grid, starts } = *self;
         let next = AtomicUsize::new(0);
         let mut solved: Vec<Option<Result<Solution, OcpError>>> =
             starts.iter().map(|_| None).collect();
@@ -47,7 +46,7 @@ impl Batch<'_> {
                 scope.spawn(move || {
                     loop {
                         let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(guess) = starts.get(index) else { break };
+                        let Some((guess, settings)) = starts.get(index) else { break };
                         let mut shown = Instant::now();
                         let outcome = model.solve(grid, guess.clone(), settings, |record| {
                             // An iteration takes less time than waking the other thread for it.

@@ -1,0 +1,128 @@
+//! Where plans start from decides where they end: saddles are left, good starts found, an earlier
+//! plan saves iterations.
+
+mod support;
+
+use righting_maneuver::file::{Guess, NamedGuess, RandomStarts};
+use righting_maneuver::{Plan, PlanError, Scenario, Status, Terminal, plan, plan_from, verify};
+use righting_ocp::Control;
+use support::{shipped, varied};
+
+fn planned(scenario: &Scenario) -> Plan {
+    plan(scenario, &mut |_| Control::Continue).unwrap()
+}
+
+/// The arm of a detumble straight up, where every joint's pull on the base vanishes by symmetry.
+fn straight_up(name: &str, guess: NamedGuess) -> Scenario {
+    varied(&shipped(name), |file| {
+        file.horizon.steps = 120.0;
+        file.initial.joint_angles_deg.fill(0.0);
+        file.solver.guess = Some(Guess::Named(guess));
+    })
+}
+
+#[test]
+fn a_saddle_is_left() {
+    for name in ["detumble_2dof", "detumble_4dof"] {
+        let scenario = straight_up(name, NamedGuess::Constant);
+        let plan = planned(&scenario);
+        let reached = Terminal::reached(&scenario, &plan.trajectory);
+        let reduction = reached.reduction_percent(&scenario);
+        assert_eq!(plan.status, Status::Solved, "{name}");
+        assert!(reduction >= 45.0, "{name}: {reduction} %");
+        assert!(reached.joint_rate_deg_s < 1.0, "{name}: {} deg/s", reached.joint_rate_deg_s);
+        assert!(plan.notes[0].starts_with("left a stationary point"), "{name}: {:?}", plan.notes);
+        assert!(verify(&scenario, &plan.trajectory).passed, "{name}");
+    }
+}
+
+#[test]
+fn a_minimum_is_not_taken_for_a_saddle() {
+    for name in ["slew_2dof", "detumble_2dof", "slew_4dof", "detumble_4dof"] {
+        let scenario = varied(&shipped(name), |file| file.horizon.steps = 120.0);
+        assert!(planned(&scenario).notes.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn the_automatic_guess_detumbles_from_straight_up() {
+    // The best of 64 starts ends with 3.316.
+    let scenario = straight_up("detumble_4dof", NamedGuess::Auto);
+    let plan = planned(&scenario);
+    let reached = Terminal::reached(&scenario, &plan.trajectory);
+    assert!(reached.reduction_percent(&scenario) >= 49.0, "{reached:?}");
+    assert!(plan.objective < 3.33, "{}", plan.objective);
+}
+
+fn turned_by(angle_deg: f64, guess: Guess) -> Scenario {
+    varied(&shipped("slew75_4dof"), |file| {
+        file.maneuver.angle_deg = Some(angle_deg);
+        file.horizon.steps = 120.0;
+        file.solver.guess = Some(guess);
+    })
+}
+
+#[test]
+fn the_neighboring_angle_s_plan_saves_iterations() {
+    let constant = || Guess::Named(NamedGuess::Constant);
+    let neighbor = planned(&turned_by(75.0, Guess::Named(NamedGuess::Auto)));
+    let scenario = turned_by(72.0, constant());
+    let iterations = |plan: &Plan| plan.rungs.iter().map(|rung| rung.iterations).sum::<usize>();
+    let cold = planned(&scenario);
+    let warm = plan_from(&scenario, &neighbor.trajectory, &mut |_| Control::Continue).unwrap();
+    assert_eq!((cold.status, warm.status), (Status::Solved, Status::Solved));
+    let (cold_iterations, warm_iterations) = (iterations(&cold), iterations(&warm));
+    assert!(warm_iterations < cold_iterations, "{warm_iterations} and {cold_iterations}");
+    assert!(warm.objective <= cold.objective * 1.001, "{} {}", warm.objective, cold.objective);
+    assert!(verify(&scenario, &warm.trajectory).passed);
+}
+
+#[test]
+fn a_plan_of_another_duration_and_grid_is_a_start_too() {
+    let neighbor = planned(&varied(&shipped("slew_2dof"), |file| file.horizon.steps = 90.0));
+    let scenario = varied(&shipped("slew_2dof"), |file| {
+        file.horizon.steps = 120.0;
+        file.horizon.duration_s *= 1.25;
+    });
+    let cold = planned(&scenario);
+    let warm = plan_from(&scenario, &neighbor.trajectory, &mut |_| Control::Continue).unwrap();
+    assert_eq!(warm.status, Status::Solved);
+    assert_eq!(warm.rungs[5].iterations, warm.rungs[5].iterations.min(cold.rungs[0].iterations));
+    assert!(warm.objective <= cold.objective * (1.0 + 1e-6));
+}
+
+#[test]
+fn a_plan_of_another_arm_is_refused() {
+    let four = varied(&shipped("slew_4dof"), |file| file.horizon.steps = 20.0);
+    let earlier = planned(&four);
+    let refused = plan_from(&shipped("slew_2dof"), &earlier.trajectory, &mut |_| Control::Continue);
+    assert!(matches!(refused, Err(PlanError::Shape(_))));
+}
+
+#[test]
+fn without_a_plan_there_are_ways_open() {
+    let scenario = varied(&shipped("slew_4dof"), |file| {
+        file.horizon.steps = 60.0;
+        file.solver.max_iterations = Some(2.0);
+    });
+    let plan = planned(&scenario);
+    assert_eq!(plan.status, Status::IterationLimit);
+    for way in ["solver.max_iterations", "horizon.duration_s 45", "solver.guess"] {
+        assert!(plan.notes.iter().any(|note| note.contains(way)), "{way}: {:?}", plan.notes);
+    }
+}
+
+#[test]
+fn one_seed_gives_one_plan() {
+    let seeded = |seed| {
+        let scenario = varied(&shipped("slew_4dof"), |file| {
+            file.horizon.steps = 60.0;
+            file.solver.guess = Some(Guess::Starts(RandomStarts { starts: 3, seed }));
+        });
+        planned(&scenario)
+    };
+    let [first, second, other] = [5, 5, 6].map(seeded);
+    assert_eq!(first.trajectory, second.trajectory);
+    assert_eq!(first.rungs, second.rungs);
+    assert_ne!(first.rungs, other.rungs, "another seed tries other starts");
+}
