@@ -25,6 +25,11 @@ use parallel::Batch;
 /// Steps of the grid on which starts are compared: coarse enough that five of them cost less than
 /// the asked grid, fine enough to tell the optima apart.
 const COARSE_STEPS: usize = 20;
+/// A long maneuver takes more of them: so far may the fastest joint turn in one, rad. Beyond that the
+/// steps integrate so poorly that the order of the optima changes.
+const COARSE_TURN_RAD: f64 = 0.46;
+/// But no more than these.
+const MOST_COARSE_STEPS: usize = 120;
 /// Tolerance there: the next grid corrects more than that.
 const COARSE_TOLERANCE: f64 = 1e-4;
 /// Iterations after which a start on the coarse grid is given up.
@@ -74,7 +79,8 @@ impl<'a> Search<'a> {
         let started = Instant::now();
         let solver = scenario.solver();
         let model = Model::compile(scenario, solver.formulation)?;
-        let scouts = solver.formulation != Formulation::Reduced && swing_count(scenario) > 0;
+        let compares = swing_count(scenario) > 0 || neighbor.is_some();
+        let scouts = solver.formulation != Formulation::Reduced && compares;
         let scout = match scouts {
             true => Some(Model::compile(scenario, Formulation::Reduced)?),
             false => None,
@@ -104,10 +110,18 @@ impl<'a> Search<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
+    fn coarse_grid(&self) -> Result<Grid, OcpError> {
+        let rates = self.scenario.system().joint_limits.iter().map(|limits| limits.rate_max_rad_s);
+        let turn_rad = self.grid.duration_s() * rates.fold(0.0, f64::max);
+        let steps = (turn_rad / COARSE_TURN_RAD).ceil() as usize;
+        let steps = steps.clamp(COARSE_STEPS, MOST_COARSE_STEPS);
+        self.grid.with_steps(self.grid.steps().min(steps))
+    }
+
     /// The best plan on the coarse grid, in the reduced form; none if the asked grid is solved at
     /// once or no start converged.
     pub(crate) fn best_coarse_solution(&mut self) -> Result<Option<Solution>, OcpError> {
-        let grid = self.grid.with_steps(self.grid.steps().min(COARSE_STEPS))?;
+        let grid = self.coarse_grid()?;
         let scout = self.scout.as_ref().unwrap_or(&self.model);
         let swings = scout.swings(self.scenario, grid.steps());
         let cold = coarse_settings(self.scenario);
@@ -116,6 +130,9 @@ impl<'a> Search<'a> {
             .map(|guess| (guess, cold.clone()))
             .collect();
         if let Some(neighbor) = self.neighbor {
+            if starts.is_empty() {
+                starts.push((swings.constant(), cold.clone()));
+            }
             starts.push((swings.along(neighbor), close_guess_settings(&cold)));
         }
         if starts.is_empty() {

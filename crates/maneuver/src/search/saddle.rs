@@ -3,7 +3,7 @@
 use righting_ocp::{Guess, OcpError, Settings, Solution};
 
 use super::parallel::Batch;
-use super::{COARSE_STEPS, SCREENED_SWINGS, Search, coarse_settings};
+use super::{SCREENED_SWINGS, Search, coarse_settings};
 use crate::scenario::Maneuver;
 
 /// Swings tried at a time.
@@ -11,21 +11,20 @@ const SWINGS: usize = 6;
 /// How many times.
 const ROUNDS: usize = 2;
 
-/// Whether a solve ended where the Lagrangian curves downwards along the constraints.
-///
-/// Ipopt adds to the Hessian's diagonal exactly when the inertia of the linear system says so, and
-/// a solve that ends on its first point has not looked.
-pub(super) fn is_saddle(solution: &Solution) -> bool {
-    let last = solution.history.last();
+/// Whether a solve ended where the Lagrangian curves downwards along the constraints: Ipopt adds to
+/// the Hessian's diagonal exactly when the inertia of the linear system says so.
+fn is_saddle(solution: &Solution) -> bool {
     solution.status.is_success()
-        && last.is_none_or(|last| last.iteration == 0 || last.regularization > 0.0)
+        && solution.history.last().is_some_and(|last| last.regularization > 0.0)
 }
 
 impl Search<'_> {
     /// The plan itself if it is a minimum; otherwise a better one, reached from swings of the arm
     /// that break the symmetry. False beside it says that there was none.
     pub(crate) fn off_saddles(&mut self, plan: Solution) -> Result<(Solution, bool), OcpError> {
-        if !is_saddle(&plan) {
+        // A cold solve that ends on its first point has not looked for a way down.
+        let has_looked = plan.iterations() > 0 || self.rungs.len() > 1;
+        if !plan.status.is_success() || (has_looked && !is_saddle(&plan)) {
             return Ok((plan, true));
         }
         for round in 0..ROUNDS {
@@ -58,7 +57,7 @@ impl Search<'_> {
 
     /// Minima on the coarse grid with a smaller objective.
     fn downhill_of(&mut self, plan: &Solution, first: usize) -> Result<Vec<Solution>, OcpError> {
-        let grid = self.grid.with_steps(self.grid.steps().min(COARSE_STEPS))?;
+        let grid = self.coarse_grid()?;
         let model = self.scout.as_ref().unwrap_or(&self.model);
         let swings = model.swings(self.scenario, grid.steps());
         let cold = coarse_settings(self.scenario);
