@@ -65,8 +65,8 @@ fn turned_by(angle_deg: f64) -> Scenario {
 /// On the coarse grid: the constant start, which comes first, and the earlier plan's, the last.
 fn coarse_rungs(plan: &Plan) -> (Rung, Rung) {
     let first = plan.rungs[0];
-    let coarse = plan.rungs.iter().filter(|rung| rung.steps == first.steps);
-    (first, *coarse.last().unwrap())
+    let mut coarse = plan.rungs.iter().filter(|rung| rung.steps == first.steps);
+    (first, *coarse.next_back().unwrap())
 }
 
 #[test]

@@ -61,7 +61,7 @@ impl MultipleShooting<'_> {
         if settings.linear_solver == LinearSolver::Mumps {
             return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
         }
-        let mut stage = StageKkt::new(&self.stage_dims());
+        let mut stage = StageKkt::new(&self.stage_dims()).stop_at_excess();
         self.solve_in_stages(&start, settings, &mut stage, &mut on_iteration)
     }
 
