@@ -30,8 +30,8 @@ const COARSE_STEPS: usize = 20;
 const COARSE_TURN_RAD: f64 = 0.46;
 /// But no more than these.
 const MOST_COARSE_STEPS: usize = 120;
-/// Tolerance there: the next grid corrects more than that.
-const COARSE_TOLERANCE: f64 = 1e-4;
+/// Tolerance there: tight enough for the barrier not to change the order of small objectives.
+const COARSE_TOLERANCE: f64 = 1e-7;
 /// Iterations after which a start on the coarse grid is given up.
 const COARSE_ITERATIONS: u32 = 300;
 /// How much finer than the grid before it a grid may be.
