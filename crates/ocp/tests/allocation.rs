@@ -1,32 +1,11 @@
 //! The program's functions allocate nothing once they have run.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
+mod counting;
 
+use counting::allocations;
 use num_dual::DualNum;
 use righting_ipopt::Problem;
 use righting_ocp::*;
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: everything is passed on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
-        // SAFETY: as the caller's.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as the caller's.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn an_iteration_allocates_nothing() {
@@ -47,7 +26,7 @@ fn an_iteration_allocates_nothing() {
     let mut before = 0;
     for iteration in 0..3 {
         if iteration == 1 {
-            before = ALLOCATIONS.load(Ordering::SeqCst);
+            before = allocations();
         }
         z[0] += 0.01;
         program.objective(&z, true).unwrap();
@@ -56,6 +35,6 @@ fn an_iteration_allocates_nothing() {
         program.jacobian(&z, false, &mut jacobian).unwrap();
         program.hessian(&z, false, 1.0, &multipliers, true, &mut hessian).unwrap();
     }
-    assert_eq!(ALLOCATIONS.load(Ordering::SeqCst), before);
+    assert_eq!(allocations(), before);
     assert!(before > 0);
 }

@@ -1,34 +1,12 @@
 //! Factorising and solving allocate nothing after the first time.
 
+mod counting;
 mod kkt_support;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
-
+use counting::allocations;
 use kkt_support::arm::ArmSystem;
 use righting_ipopt::{Factorization, LinearSolver};
 use righting_ocp::kkt::StageKkt;
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: everything is passed on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
-        // SAFETY: the caller keeps the allocator's contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller keeps the allocator's contract.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn factor_and_solve_allocate_nothing() {
@@ -59,7 +37,7 @@ fn factor_and_solve_allocate_nothing() {
         }
     };
     round();
-    let before = ALLOCATIONS.load(Ordering::SeqCst);
+    let before = allocations();
     round();
-    assert_eq!(ALLOCATIONS.load(Ordering::SeqCst), before);
+    assert_eq!(allocations(), before);
 }
