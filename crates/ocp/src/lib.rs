@@ -31,6 +31,7 @@
 #![forbid(unsafe_code)]
 
 mod block;
+mod curvature;
 mod derivative_check;
 mod error;
 mod grid;
@@ -53,6 +54,7 @@ mod step;
 mod structure;
 mod worker;
 
+pub use curvature::Curvature;
 pub use derivative_check::DerivativeErrors;
 pub use error::OcpError;
 pub use grid::Grid;

@@ -137,7 +137,7 @@ impl MultipleShooting<'_> {
 
     /// What the stage solver needs to know: a constraint held between equal bounds is an equality
     /// to Ipopt and has no slack.
-    fn stage_dims(&self) -> StageDims {
+    pub(crate) fn stage_dims(&self) -> StageDims {
         let (functions, dimensions) = (self.functions(), self.layout().dimensions());
         let equalities = |bounds: &Interval| {
             bounds.lower.iter().zip(&bounds.upper).filter(|(lower, upper)| lower == upper).count()

@@ -1,5 +1,5 @@
 use righting_ocp::{
-    Control, Grid, Guess, MultipleShooting, OcpError, Rung, Samples, Settings, Solution,
+    Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Rung, Samples, Settings, Solution,
     StageFunctions, Start, refine,
 };
 
@@ -51,6 +51,11 @@ impl Model {
         let on_iteration = |iteration: &righting_ocp::Iteration| on_iteration(record(iteration));
         let initial = &self.initial;
         refine(&self.functions, grid, between, initial, coarse.point, settings, on_iteration)
+    }
+
+    /// How the Lagrangian curves at a solution on `grid`.
+    pub(super) fn curvature(&self, grid: Grid, solution: &Solution) -> Result<Curvature, OcpError> {
+        MultipleShooting::new(&self.functions, grid, &self.initial)?.curvature(&solution.point)
     }
 
     /// The motion of a solution in another model's form, as a guess for this one.
