@@ -67,10 +67,7 @@ struct PrintedWheels<'a> {
 /// Reads, searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let system = read_system_or_scenario(&arguments.file)?;
-    let wheels = match &arguments.wheels {
-        Some(file) => WheelArray::read(file)?,
-        None => WheelArray::pyramid(),
-    };
+    let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
     let folder = OutputFolder::open(&arguments.out)?;
     let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);
     let zonotopes = [wheels.momentum(), wheels.torque()];
@@ -94,9 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             torque_volume: zonotopes[1].volume(),
         },
     };
-    let mut json = serde_json::to_string_pretty(&printed)
-        .map_err(|error| Failure::Stdout(std::io::Error::other(error)))?;
-    json.push('\n');
+    let json = output::to_json(&printed)?;
     let [momentum_mesh, torque_mesh] = [zonotopes[0].mesh(), zonotopes[1].mesh()];
     let outlines = |envelope: &Envelope, wheels: &Mesh| EnvelopeOutlines {
         arm: envelope.extreme_points.clone(),

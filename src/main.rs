@@ -12,6 +12,7 @@ mod failure;
 mod interrupt;
 mod output;
 mod output_folder;
+mod power;
 mod progress;
 mod schema;
 mod solve;
@@ -44,6 +45,7 @@ enum Command {
     Solve(solve::Arguments),
     Verify(verify::Arguments),
     Envelope(envelope::Arguments),
+    Power(power::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -56,6 +58,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
+        Command::Power(arguments) => power::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
@@ -71,6 +74,7 @@ impl Command {
             Self::Solve(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
+            Self::Power(arguments) => arguments.json,
             Self::Schema(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }

@@ -17,10 +17,15 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints one JSON object on stdout.
 pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    print(&to_json(value)?)
+}
+
+/// One JSON object as text that ends with a line.
+pub fn to_json(value: &impl Serialize) -> Result<String, Failure> {
     let mut text = serde_json::to_string_pretty(value)
         .map_err(|error| Failure::Stdout(io::Error::other(error)))?;
     text.push('\n');
-    print(&text)
+    Ok(text)
 }
 
 /// Prints a line on stderr, if anyone listens.

@@ -33,8 +33,14 @@ pub struct ResultFiles {
 pub const ATTITUDE_FILE: &str = "attitude.svg";
 /// The figure of the joints.
 pub const JOINTS_FILE: &str = "joints.svg";
+/// What the plan's motion costs.
+pub const POWER_FILE: &str = "power.json";
+/// The figure of it.
+pub const POWER_FIGURE_FILE: &str = "power.svg";
 
-const ALL: [&str; 4] = [TRAJECTORY_FILE, SOLUTION_FILE, ATTITUDE_FILE, JOINTS_FILE];
+/// Everything that belongs to a plan.
+const ALL: [&str; 6] =
+    [TRAJECTORY_FILE, SOLUTION_FILE, ATTITUDE_FILE, JOINTS_FILE, POWER_FILE, POWER_FIGURE_FILE];
 
 impl ResultFiles {
     /// Those that there are, in the order they are listed to a reader.

@@ -1,7 +1,7 @@
 //! `righting schema`: the formats of the input files.
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::schema::{scenario_schema, system_schema};
+use righting_maneuver::schema::{scenario_schema, system_schema, wheels_schema};
 
 use crate::failure::Failure;
 use crate::output;
@@ -20,6 +20,8 @@ enum File {
     Scenario,
     /// A spacecraft and its arm.
     System,
+    /// Reaction wheels to compare an arm with.
+    Wheels,
 }
 
 /// Prints the schema.
@@ -27,5 +29,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::print_json(&match arguments.file {
         File::Scenario => scenario_schema(),
         File::System => system_schema(),
+        File::Wheels => wheels_schema(),
     })
 }

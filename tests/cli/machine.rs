@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde_json::json;
+
 use crate::program::{folder_with, righting, small_slew};
 
 #[test]
@@ -30,6 +32,11 @@ fn schemas_describe_the_files_that_the_program_reads() {
     }
     let system = righting(Path::new("."), &["schema", "system"]).json();
     assert!(system["properties"]["links"].is_object());
+    let wheels = righting(Path::new("."), &["schema", "wheels"]).json();
+    assert_eq!(wheels["properties"]["wheels"]["type"], "array");
+    let wheel = &wheels["$defs"]["Wheel"];
+    assert_eq!(wheel["required"], json!(["axis", "momentum_max_n_m_s", "torque_max_n_m"]));
+    assert_eq!(wheel["additionalProperties"], false);
 }
 
 #[test]

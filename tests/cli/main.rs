@@ -4,6 +4,7 @@ mod bad_input;
 mod documents;
 mod envelope;
 mod machine;
+mod power;
 mod program;
 mod scenarios;
 mod solve;

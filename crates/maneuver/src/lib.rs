@@ -41,6 +41,7 @@
 
 pub mod collision;
 pub mod detumble;
+mod dormand_prince;
 pub mod envelope;
 pub mod error;
 pub mod file;
@@ -53,6 +54,7 @@ mod json;
 mod open_ways;
 mod outcome;
 pub mod planner;
+pub mod power;
 pub mod scenario;
 pub mod schema;
 mod search;
@@ -72,6 +74,7 @@ pub use formulation::FormulatedManeuver;
 pub use initial::Initial;
 pub use outcome::objective;
 pub use planner::{Plan, PlanError, PlanTiming, plan, plan_from, plan_with_threads};
+pub use power::PowerProfile;
 pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, Versions};
 pub use system_description::{JointLimits, SystemDescription};

@@ -17,7 +17,6 @@
 //!   equations: 1e-6 rad and rad/s.
 
 mod directory;
-mod dormand_prince;
 mod ledger;
 mod limits;
 mod replay;

@@ -77,12 +77,8 @@ fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
 }
 
 fn quaternion_panel(nodes: &[Node]) -> Panel {
-    let mut curves = vec![Curve {
-        name: "w",
-        color: style::W,
-        values: nodes.iter().map(|n| n.attitude[0]).collect(),
-        hold: false,
-    }];
+    let scalar = nodes.iter().map(|n| n.attitude[0]).collect();
+    let mut curves = vec![Curve { name: "w".to_owned(), ..Curve::plain(style::W, scalar) }];
     curves
         .extend(components(["x", "y", "z"], |i| nodes.iter().map(|n| n.attitude[i + 1]).collect()));
     Panel {
@@ -99,7 +95,7 @@ fn rate_panel(nodes: &[Node]) -> Panel {
     let mut curves = components(["x", "y", "z"], |i| {
         nodes.iter().map(|n| n.angular_rate_rad_s[i].to_degrees()).collect()
     });
-    curves.insert(0, Curve { name: "magnitude", ..magnitude(spin_deg_s(nodes)) });
+    curves.insert(0, Curve { name: "magnitude".to_owned(), ..magnitude(spin_deg_s(nodes)) });
     Panel {
         heading: "Angular rate of the base, body axes".to_owned(),
         axis_label: "Rate [deg/s]",
@@ -129,12 +125,12 @@ fn spin_panel(nodes: &[Node], bound_deg_s: Option<f64>) -> Panel {
 fn components(names: [&'static str; 3], values: impl Fn(usize) -> Vec<f64>) -> Vec<Curve> {
     let colors = [style::X, style::Y, style::Z];
     (0..3)
-        .map(|i| Curve { name: names[i], color: colors[i], values: values(i), hold: false })
+        .map(|i| Curve { name: names[i].to_owned(), ..Curve::plain(colors[i], values(i)) })
         .collect()
 }
 
 fn magnitude(values: Vec<f64>) -> Curve {
-    Curve { name: "", color: style::MAGNITUDE, values, hold: false }
+    Curve::plain(style::MAGNITUDE, values)
 }
 
 fn spin_deg_s(nodes: &[Node]) -> Vec<f64> {

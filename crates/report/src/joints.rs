@@ -81,6 +81,6 @@ fn panel(
     };
     let limit = |value| Rule { kind: RuleKind::Limit, value };
     let rules = limits_deg.into_iter().flatten().map(limit).collect();
-    let curves = vec![Curve { name: "", color: style::Z, values, hold }];
+    let curves = vec![Curve { hold, ..Curve::plain(style::Z, values) }];
     Panel { heading, axis_label: "", note, curves, rules, least_span }
 }

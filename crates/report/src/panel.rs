@@ -8,12 +8,27 @@ use crate::svg::{Anchor, Stroke, Svg};
 /// A quantity over time.
 pub(crate) struct Curve {
     /// Its legend entry; none when empty.
-    pub name: &'static str,
+    pub name: String,
     pub color: &'static str,
+    /// A dash pattern; empty for a solid curve.
+    pub dash: &'static str,
     /// One value a node; one fewer when `hold` and the last node has none.
     pub values: Vec<f64>,
     /// Each value lasts until the next node, as a control does.
     pub hold: bool,
+}
+
+impl Curve {
+    /// A solid curve through values at the nodes, without a legend entry.
+    pub fn plain(color: &'static str, values: Vec<f64>) -> Self {
+        Self { name: String::new(), color, dash: "", values, hold: false }
+    }
+
+    /// The curve of a joint, counted from zero, named by its number.
+    pub fn of_joint(joint: usize, values: Vec<f64>) -> Self {
+        let (color, dash) = style::joint(joint);
+        Self { name: (joint + 1).to_string(), dash, ..Self::plain(color, values) }
+    }
 }
 
 /// A constant that curves are judged by.
@@ -29,6 +44,8 @@ pub(crate) enum RuleKind {
     Limit,
     /// To be reached: dotted, in the colour of the curve that is to reach it.
     Target(&'static str),
+    /// Another's value, to compare with: dashed grey.
+    Reference,
 }
 
 /// A panel's contents.
@@ -62,7 +79,7 @@ impl Panel {
     /// [`style::LEAST_CURVE_SHARE`] of the height. The other limits get a strip at the edge that
     /// they lie behind, out of the `height` in pixels.
     fn range(&self, height: f64) -> Range {
-        let is_target = |rule: &&Rule| rule.kind != RuleKind::Limit;
+        let is_target = |rule: &&Rule| matches!(rule.kind, RuleKind::Target(_));
         let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
         let targets = self.rules.iter().filter(is_target).map(|rule| rule.value);
         let curves = Range::of(values.chain(targets)).unwrap_or(Range { low: 0.0, high: 0.0 });
@@ -107,7 +124,7 @@ impl Panel {
             axes.draw_rule(svg, rule);
         }
         for curve in &self.curves {
-            let stroke = Stroke { color: curve.color, width: style::CURVE_WIDTH, dash: "" };
+            let stroke = Stroke { color: curve.color, width: style::CURVE_WIDTH, dash: curve.dash };
             let runs = axes.runs(times, curve);
             svg.polylines(runs.iter().map(Vec::as_slice), stroke);
         }
@@ -132,11 +149,17 @@ impl Panel {
             svg.text([right, base], Anchor::End, size, style::FAINT_INK, &self.note);
             right -= advance(&self.note) + 14.0;
         }
+        let room = left + advance(&self.heading) * style::LABEL_SIZE / style::SMALL_SIZE;
         for curve in self.curves.iter().rev().filter(|curve| !curve.name.is_empty()) {
             let size = style::SMALL_SIZE;
-            svg.text([right, base], Anchor::End, size, style::INK, curve.name);
-            right -= advance(curve.name) + 5.0;
-            let stroke = Stroke { color: curve.color, width: 1.5 * style::CURVE_WIDTH, dash: "" };
+            if right - advance(&curve.name) - 21.0 < room {
+                svg.text([right, base], Anchor::End, size, style::INK, "\u{2026}");
+                break;
+            }
+            svg.text([right, base], Anchor::End, size, style::INK, &curve.name);
+            right -= advance(&curve.name) + 5.0;
+            let width = 1.5 * style::CURVE_WIDTH;
+            let stroke = Stroke { color: curve.color, width, dash: curve.dash };
             svg.line([right - 16.0, base - 3.5], [right, base - 3.5], stroke);
             right -= 16.0 + 12.0;
         }
@@ -199,6 +222,7 @@ impl Axes {
         let (color, dash) = match rule.kind {
             RuleKind::Limit => (style::LIMIT, style::LIMIT_DASH),
             RuleKind::Target(color) => (color, style::TARGET_DASH),
+            RuleKind::Reference => (style::REFERENCE, style::LIMIT_DASH),
         };
         let stroke = Stroke { color, width: style::RULE_WIDTH, dash };
         let [left, top] = self.at.corner;
@@ -265,7 +289,7 @@ mod tests {
     fn panel(values: Vec<f64>, limits: &[f64]) -> Panel {
         let rules =
             limits.iter().map(|&value| Rule { kind: RuleKind::Limit, value }).collect::<Vec<_>>();
-        let curves = vec![Curve { name: "", color: style::Z, values, hold: false }];
+        let curves = vec![Curve::plain(style::Z, values)];
         let heading = String::new();
         Panel { heading, axis_label: "", note: String::new(), curves, rules, least_span: 1e-3 }
     }
@@ -302,8 +326,7 @@ mod tests {
             value: Range { low: 0.0, high: 1.0 },
             at: Placement { corner: [0.0, 0.0], size: [3.0, 1.0], time_labels: false },
         };
-        let curve =
-            Curve { name: "", color: "", values: vec![1.0, f64::NAN, 0.0, 0.5], hold: false };
+        let curve = Curve::plain("", vec![1.0, f64::NAN, 0.0, 0.5]);
         let runs = axes.runs(&[0.0, 1.0, 2.0, 3.0], &curve);
         assert_eq!(runs, [vec![[0.0, 0.0]], vec![[2.0, 1.0], [3.0, 0.5]]]);
     }

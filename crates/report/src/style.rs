@@ -16,8 +16,15 @@ pub const W: &str = "#CC79A7";
 pub const MAGNITUDE: &str = "#000000";
 /// Limits and bounds, always dashed.
 pub const LIMIT: &str = "#A33B00";
-/// Where a curve is meant to arrive, always dotted.
-pub const TARGET: &str = "#555555";
+/// What curves are compared with, always dashed.
+pub const REFERENCE: &str = "#555555";
+/// Curves told apart by number: joints, variants, repeated with another dash where there are more.
+/// Okabe and Ito's yellow is left out, which is too light for a line on white,
+/// and so is black, which sums are drawn in.
+pub const SERIES: [&str; 7] =
+    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#7A7A7A"];
+/// Dashes of the first, second … round of [`SERIES`].
+pub const SERIES_DASHES: [&str; 3] = ["", "7 3", "2 2"];
 
 /// Text.
 pub const INK: &str = "#1A1A1A";
@@ -32,6 +39,13 @@ pub const PAPER: &str = "#FFFFFF";
 
 /// Text is left to the reader's own sans serif: no font is embedded.
 pub const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+
+/// Colour and dash pattern of the curve of a joint, counted from zero.
+pub fn joint(index: usize) -> (&'static str, &'static str) {
+    let round = index / SERIES.len() % SERIES_DASHES.len();
+    (SERIES[index % SERIES.len()], SERIES_DASHES[round])
+}
+
 /// The title of a figure.
 pub const TITLE_SIZE: f64 = 16.0;
 /// Headings of panels and axis labels.

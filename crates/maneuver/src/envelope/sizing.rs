@@ -10,14 +10,15 @@ use crate::wheels::Zonotope;
 
 /// Directions in which the two are compared, axes and diagonals among them.
 const DIRECTIONS: usize = 66;
-/// Factors beyond these are no advice.
-const SMALLEST: f64 = 1e-2;
+/// Brackets of the factor, from one either way: most arms are of the right order.
+const BRACKETS: [f64; 4] = [2.0, 10.0, 1e2, 1e6];
+/// A longer or heavier arm than this many times is no advice.
 const LARGEST: f64 = 1e2;
-/// Halvings of the logarithm of the factor: to a thousandth.
-const HALVINGS: usize = 14;
+/// The logarithm of the factor is found to this.
+const PRECISION: f64 = 5e-4;
 
-/// Factors at which one side reaches as far as the other in every direction; none where no factor
-/// from 0.01 to 100 does.
+/// Factors at which one side reaches as far as the other in every direction; none where no factor up
+/// to 100 does, 0 where a millionth still does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sizing {
     /// On the length of every link, masses held.
@@ -67,25 +68,17 @@ pub(super) fn sizing(
 
 /// The smallest factor that suffices, as far as more is better.
 fn smallest_factor(suffices: impl Fn(f64) -> bool) -> Option<f64> {
-    let (mut low, mut high) = (SMALLEST.ln(), LARGEST.ln());
-    // Most arms are of the right order: a narrow bracket first.
-    for width in [2.0_f64, 10.0] {
-        if suffices(width) {
-            high = width.ln();
-            if !suffices(1.0 / width) {
-                low = -high;
-            }
-            break;
-        }
-        low = width.ln();
-    }
-    if high == LARGEST.ln() && !suffices(LARGEST) {
-        return None;
-    }
-    for _ in 0..HALVINGS {
-        if high - low < 5e-4 {
-            break;
-        }
+    let (mut low, mut high) = if suffices(1.0) {
+        let Some(i) = BRACKETS.iter().position(|&width| !suffices(1.0 / width)) else {
+            return Some(0.0);
+        };
+        (-BRACKETS[i].ln(), if i == 0 { 0.0 } else { -BRACKETS[i - 1].ln() })
+    } else {
+        let mut wider = BRACKETS.iter().take_while(|&&width| width <= LARGEST);
+        let i = wider.position(|&width| suffices(width))?;
+        (if i == 0 { 0.0 } else { BRACKETS[i - 1].ln() }, BRACKETS[i].ln())
+    };
+    while high - low > PRECISION {
         let middle = 0.5 * (low + high);
         *(if suffices(middle.exp()) { &mut high } else { &mut low }) = middle;
     }
@@ -117,10 +110,12 @@ mod tests {
 
     #[test]
     fn the_smallest_factor_is_found_across_the_range() {
-        for needed in [0.013, 0.4, 0.99, 1.0, 1.7, 6.0, 80.0] {
+        for needed in [3e-6, 0.013, 0.4, 0.99, 1.0, 1.7, 6.0, 80.0] {
             let found = smallest_factor(|factor| factor >= needed).expect("in range");
             assert!((found / needed - 1.0).abs() < 2e-3, "{found} for {needed}");
         }
         assert_eq!(smallest_factor(|_| false), None);
+        assert_eq!(smallest_factor(|factor| factor >= 150.0), None);
+        assert_eq!(smallest_factor(|_| true), Some(0.0));
     }
 }

@@ -2,7 +2,7 @@
 
 use righting_multibody::State;
 
-use super::dormand_prince::DormandPrince;
+use crate::dormand_prince::DormandPrince;
 use crate::scenario::Scenario;
 use crate::trajectory::Trajectory;
 

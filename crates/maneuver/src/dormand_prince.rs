@@ -30,7 +30,7 @@ const ERROR: [f64; 7] = [
 ];
 
 /// An integrator of one autonomous system, with the step size that fitted last.
-pub(super) struct DormandPrince {
+pub(crate) struct DormandPrince {
     step: f64,
 }
 

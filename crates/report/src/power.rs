@@ -1,0 +1,145 @@
+//! `power.svg` and its table: what the joints' torques cost, beside reaction wheels.
+
+use std::fmt::Write;
+
+use righting_maneuver::power::{Accounting, Instant};
+use righting_maneuver::{PowerProfile, Solution, WheelArray};
+
+use crate::figure::{Figure, heading};
+use crate::number::short;
+use crate::panel::{Curve, Panel, Rule, RuleKind};
+use crate::style;
+
+const PANEL_SIZE: [f64; 2] = [640.0, 150.0];
+/// Below these heights (N m, W) a curve counts as constant.
+const LEAST_TORQUE_SPAN_N_M: f64 = 1e-6;
+const LEAST_POWER_SPAN_W: f64 = 1e-6;
+
+/// An arm's power over a maneuver and the wheels it is compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct PowerComparison<'a> {
+    /// Torques and mechanical power of the joints.
+    pub profile: &'a PowerProfile,
+    /// Overall efficiency of the joints' actuators, in (0, 1].
+    pub efficiency: f64,
+    /// Wheels that would do the same.
+    pub wheels: &'a WheelArray,
+}
+
+/// What a reader calls a variant.
+fn accounting_phrase(accounting: Accounting) -> &'static str {
+    match accounting {
+        Accounting::Signed => "signed sum",
+        Accounting::Absolute => "absolute per joint",
+        Accounting::WithoutRegeneration => "no regeneration",
+        Accounting::WithRegeneration => "with regeneration",
+    }
+}
+
+/// The figure of joint torques, mechanical power and power drawn over the maneuver, as an SVG
+/// document; the power drawn in every [`Accounting`], beside the steady power of one wheel.
+pub fn power_svg(solution: &Solution, comparison: PowerComparison<'_>) -> String {
+    let instants = comparison.profile.instants();
+    let (title, subtitle) = heading(solution);
+    let figure = Figure {
+        title,
+        subtitle,
+        times: instants.iter().map(|instant| instant.time_s).collect(),
+        columns: 1,
+        panel_size: PANEL_SIZE,
+        panels: vec![torque_panel(instants), mechanical_panel(instants), drawn_panel(comparison)],
+    };
+    figure.render()
+}
+
+fn torque_panel(instants: &[Instant]) -> Panel {
+    Panel {
+        heading: "Joint torques".to_owned(),
+        axis_label: "Torque [N m]",
+        note: String::new(),
+        curves: joint_curves(instants, |instant| &instant.joint_torques_n_m),
+        rules: Vec::new(),
+        least_span: LEAST_TORQUE_SPAN_N_M,
+    }
+}
+
+fn mechanical_panel(instants: &[Instant]) -> Panel {
+    let mut curves = joint_curves(instants, |instant| &instant.joint_powers_w);
+    let sum = instants.iter().map(|instant| instant.joint_powers_w.iter().sum()).collect();
+    let dash = style::LIMIT_DASH;
+    curves.push(Curve { name: "sum".to_owned(), dash, ..Curve::plain(style::MAGNITUDE, sum) });
+    Panel {
+        heading: "Mechanical power of the joints".to_owned(),
+        axis_label: "Power [W]",
+        note: String::new(),
+        curves,
+        rules: Vec::new(),
+        least_span: LEAST_POWER_SPAN_W,
+    }
+}
+
+fn drawn_panel(comparison: PowerComparison<'_>) -> Panel {
+    let PowerComparison { profile, efficiency, wheels } = comparison;
+    // The later is drawn over the earlier where they agree, the paper's over all.
+    let curves = [
+        (Accounting::WithoutRegeneration, "no regen.", ""),
+        (Accounting::WithRegeneration, "regen.", style::SERIES_DASHES[1]),
+        (Accounting::Absolute, "absolute", ""),
+        (Accounting::Signed, "signed", ""),
+    ];
+    let curve = |(i, (accounting, name, dash)): (usize, (Accounting, &str, &'static str))| Curve {
+        name: name.to_owned(),
+        dash,
+        ..Curve::plain(style::SERIES[i], profile.drawn_w(accounting, efficiency))
+    };
+    let one_wheel =
+        wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min);
+    Panel {
+        heading: format!("Power drawn, \u{3b7} = {}", short(efficiency)),
+        axis_label: "Power [W]",
+        note: format!("dashed: one wheel, {} W", short(one_wheel)),
+        curves: curves.into_iter().enumerate().map(curve).collect(),
+        rules: vec![Rule { kind: RuleKind::Reference, value: one_wheel }],
+        least_span: LEAST_POWER_SPAN_W,
+    }
+}
+
+fn joint_curves(instants: &[Instant], of: impl Fn(&Instant) -> &Vec<f64>) -> Vec<Curve> {
+    let joints = instants.first().map_or(0, |instant| of(instant).len());
+    let values = |joint: usize| instants.iter().map(|instant| of(instant)[joint]).collect();
+    (0..joints).map(|joint| Curve::of_joint(joint, values(joint))).collect()
+}
+
+/// The comparison as a table for people.
+pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> String {
+    let PowerComparison { profile, efficiency, wheels } = comparison;
+    let mut text = String::new();
+    let mut line = |arguments: std::fmt::Arguments<'_>| {
+        text.write_fmt(arguments).expect("a string takes all that is written to it");
+        text.push('\n');
+    };
+    let (title, subtitle) = heading(solution);
+    line(format_args!("{title}: {subtitle}"));
+    line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "peak [W]", "mean [W]", "energy [J]"));
+    let mut row = |name: &str, numbers: [f64; 3]| {
+        let [peak, mean, energy] = numbers.map(short);
+        line(format_args!("  {name:<34}{peak:>12}{mean:>12}{energy:>12}"));
+    };
+    for accounting in Accounting::ALL {
+        let used = profile.consumption(accounting, efficiency);
+        let name = format!("arm, {}", accounting_phrase(accounting));
+        row(&name, [used.peak_w, used.mean_w, used.energy_j]);
+    }
+    let steady_w = wheels.steady_power_w();
+    let name = format!("{} wheels, spinning steadily", wheels.wheels().len());
+    row(&name, [steady_w, steady_w, steady_w * profile.duration_s()]);
+    line(format_args!("  at an efficiency of {} of the arm's actuators", short(efficiency)));
+    let torques: Vec<String> = profile.peak_torques_n_m().into_iter().map(short).collect();
+    line(format_args!("  peak joint torques {} N m", torques.join(", ")));
+    line(format_args!(
+        "  work of the joints {} J, change of kinetic energy {} J",
+        short(profile.work_j()),
+        short(profile.kinetic_energy_change_j()),
+    ));
+    text
+}

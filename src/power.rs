@@ -1,0 +1,114 @@
+//! `righting power`: what a plan's motion costs, beside reaction wheels.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use clap::Args;
+use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
+use righting_maneuver::wheels::Wheel;
+use righting_maneuver::{Error, PowerProfile, Solution, Verified, WheelArray, verify_directory};
+use righting_report::{PowerComparison, power_svg, power_table, write_whole};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::output;
+use crate::output_folder::{OutputFolder, POWER_FIGURE_FILE, POWER_FILE};
+
+/// Work out the joint torques of a plan and the power they take, beside reaction wheels.
+#[derive(Args)]
+pub struct Arguments {
+    /// A folder with trajectory.csv and solution.json.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Overall efficiency of the joints' actuators.
+    #[arg(long, value_name = "ETA", default_value_t = PAPER_EFFICIENCY, value_parser = efficiency)]
+    efficiency: f64,
+    /// The wheels; a pyramid of four, 5 W each, if not given.
+    #[arg(long, value_name = "FILE")]
+    wheels: Option<PathBuf>,
+    /// The folder for power.json and power.svg; the plan's if not given.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What power.json holds and `--json` prints.
+#[derive(Serialize)]
+struct Printed<'a> {
+    schema: &'static str,
+    scenario: &'a str,
+    duration_s: f64,
+    efficiency: f64,
+    variants: BTreeMap<&'static str, Consumption>,
+    peak_joint_torques_n_m: Vec<f64>,
+    peak_joint_powers_w: Vec<f64>,
+    work_j: Option<f64>,
+    kinetic_energy_change_j: Option<f64>,
+    wheels: PrintedWheels<'a>,
+}
+
+#[derive(Serialize)]
+struct PrintedWheels<'a> {
+    array: &'a [Wheel],
+    steady_power_w: f64,
+    energy_j: f64,
+}
+
+/// Reads, checks, computes, writes and prints.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
+    let plan = verify_directory(&arguments.folder)?;
+    let Verified { solution, scenario, trajectory, verification } = plan;
+    let solution = Solution { verification, ..solution };
+    let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
+    let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
+    let efficiency = arguments.efficiency;
+    let consumption =
+        |accounting: Accounting| (name(accounting), profile.consumption(accounting, efficiency));
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let printed = Printed {
+        schema: "righting.power/1",
+        scenario: scenario.name(),
+        duration_s: profile.duration_s(),
+        efficiency,
+        variants: Accounting::ALL.into_iter().map(consumption).collect(),
+        peak_joint_torques_n_m: profile.peak_torques_n_m(),
+        peak_joint_powers_w: profile.peak_joint_powers_w(),
+        work_j: finite(profile.work_j()),
+        kinetic_energy_change_j: finite(profile.kinetic_energy_change_j()),
+        wheels: PrintedWheels {
+            array: wheels.wheels(),
+            steady_power_w: wheels.steady_power_w(),
+            energy_j: wheels.steady_power_w() * profile.duration_s(),
+        },
+    };
+    let comparison = PowerComparison { profile: &profile, efficiency, wheels: &wheels };
+    let json = output::to_json(&printed)?;
+    write_whole(folder.path(), POWER_FIGURE_FILE, power_svg(&solution, comparison).as_bytes())?;
+    write_whole(folder.path(), POWER_FILE, json.as_bytes())?;
+    if arguments.json {
+        output::print(&json)?;
+    } else {
+        output::print(&power_table(&solution, comparison))?;
+    }
+    Failure::of_verification(&solution).map_or(Ok(()), Err)
+}
+
+/// The key of a variant.
+fn name(accounting: Accounting) -> &'static str {
+    match accounting {
+        Accounting::Signed => "signed",
+        Accounting::Absolute => "absolute",
+        Accounting::WithoutRegeneration => "without_regeneration",
+        Accounting::WithRegeneration => "with_regeneration",
+    }
+}
+
+fn efficiency(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
+        _ => Err("more than 0, at most 1".to_owned()),
+    }
+}
