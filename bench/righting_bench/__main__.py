@@ -8,7 +8,7 @@ import json
 import sys
 from pathlib import Path
 
-from .compare import compare
+from .compare import MANEUVERS, TABLES, Scope, compare
 from .evaluation import evaluation_times
 from .expected import write_expected
 from .measurements import Measurements
@@ -52,9 +52,9 @@ def _parser() -> argparse.ArgumentParser:
 
     comparison = commands.add_parser("compare", help="run ours and CasADi in turn and render the tables")
     comparison.add_argument("--all", action="store_true", help="every maneuver; takes hours")
-    comparison.add_argument("--only", nargs="+", metavar="NAME", help="these maneuvers, all measurements")
+    comparison.add_argument("--only", nargs="+", metavar="NAME", choices=MANEUVERS, help="these, completely")
     comparison.add_argument("--righting", type=Path, default=ROOT / "target/release/righting")
-    comparison.add_argument("--part", choices=["both", "ours", "casadi"], default="both")
+    comparison.add_argument("--tables", nargs="+", choices=TABLES, help="default: all of them")
     comparison.set_defaults(run=_compare)
 
     rendering = commands.add_parser("render", help="render docs/benchmarks.md from the saved results")
@@ -98,10 +98,15 @@ def _derivatives(options: argparse.Namespace) -> int:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    if options.part != "casadi" and not options.righting.exists():
+    if not options.righting.exists():
         print(f"no program at {options.righting}; build it with cargo build --release", file=sys.stderr)
         return 2
-    compare(ROOT, options.righting, options.only, everything=options.all, part=options.part)
+    scope = Scope(
+        names=tuple(options.only or MANEUVERS),
+        tables=tuple(options.tables or (table for table in TABLES if not options.only or table != "growth")),
+        quick=not (options.all or options.only),
+    )
+    compare(ROOT, options.righting, scope)
     return _render(options)
 
 

@@ -9,11 +9,12 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from .machine import this_machine
 from .measurements import Measurements, casadi_key
-from .ours import VARIANTS, inlined, run_ours, summarise
+from .ours import VARIANTS, OurRun, inlined, run_ours, summarise
 
 MANEUVERS = (
     "slew_2dof",
@@ -29,7 +30,7 @@ MANEUVERS = (
 QUICK_PAPER = ("slew_2dof", "detumble_2dof")
 QUICK_REDUCED = ("slew_2dof", "detumble_2dof", "slew_4dof")
 # Runs of ours before and again after each CasADi run.
-REPEATS = 2
+REPEATS = 3
 # Load average above which wall-clock times are no longer this program's alone.
 BUSY = 0.5
 
@@ -59,64 +60,80 @@ REDUCED = Solve("reduced", "ipopt", "nlpsol", compiled=False)
 BEST_REDUCED = tuple(Solve("reduced", solver, "composed", compiled=True) for solver in ("ipopt", "fatrop"))
 
 
-def compare(root: Path, program: Path, only: list[str] | None, everything: bool, part: str) -> None:
-    """Measure what a run covers and keep it under results/.
+# What a run can measure, as in the tables of docs/benchmarks.md.
+TABLES = ("paper", "best", "reduced", "derivatives", "inside", "growth")
 
-    `part` is "both", or "ours" or "casadi" to refresh one side alone.
-    """
+
+@dataclass(frozen=True)
+class Scope:
+    """What one run measures: every table of the named maneuvers, or the quick subset of all."""
+
+    names: tuple[str, ...] = MANEUVERS
+    tables: tuple[str, ...] = TABLES
+    quick: bool = True
+
+    def solves(self, name: str) -> Iterator[Solve]:
+        """What CasADi is asked about a maneuver."""
+        if not self.quick or name in QUICK_PAPER:
+            yield from (PAPER,) if "paper" in self.tables else ()
+            yield from BEST_PAPER if "best" in self.tables else ()
+        if (not self.quick or name in QUICK_REDUCED) and "reduced" in self.tables:
+            yield REDUCED
+            yield from BEST_REDUCED
+
+    def variants(self, name: str) -> dict[str, dict[str, str]]:
+        """Ours with other solver fields."""
+        if "inside" not in self.tables or (self.quick and name not in QUICK_REDUCED):
+            return {}
+        return {label: solver for label, solver in VARIANTS.items() if label != "default"}
+
+    def derivatives(self, name: str) -> Iterator[tuple[str, list[str]]]:
+        """Forms and ways of evaluating CasADi's derivatives."""
+        every = ["nlpsol", "mapped", "composed", "compiled"]
+        if "derivatives" not in self.tables:
+            return
+        if not self.quick or name in QUICK_PAPER:
+            yield "full", every
+        if not self.quick or name in QUICK_REDUCED:
+            yield "reduced", every
+        elif name == "slew_canadarm2":
+            yield "reduced", ["nlpsol", "mapped"]
+
+
+def compare(root: Path, program: Path, scope: Scope) -> None:
+    """Measure what the scope covers and keep it under results/."""
     kept = Measurements.load(root / "results")
     run = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
     machine = this_machine()
     if machine.load > BUSY:
         _announce(f"warning: load average {machine.load:.1f}, the times will be too long")
     kept.runs[run] = dataclasses.asdict(machine)
-    names = only or MANEUVERS
-    complete = everything or bool(only)
-    for name in names:
+    for name in scope.names:
         path = root / "scenarios" / f"{name}.json"
-        solves = [] if part == "ours" else list(_solves(name, complete))
-        repeats = 0 if part == "casadi" else REPEATS
-        runs = [run_ours(program, inlined(path, {})) for _ in range(repeats)]
-        for solve in solves:
+        ours = partial(_repeated, program, inlined(path, {}))
+        before = ours()
+        kept.keep(run, f"ours/{name}/default", summarise(before))
+        for solve in scope.solves(name):
             _announce(solve.key(name))
             outcome = _casadi(root, ["casadi", str(path), *solve.arguments(), "--json"])
+            after = ours()
             if outcome:
-                kept.keep(run, solve.key(name), outcome)
-            runs += [run_ours(program, inlined(path, {})) for _ in range(repeats)]
-        if runs:
-            kept.keep(run, f"ours/{name}/default", summarise(runs))
-        if repeats and (complete or name in QUICK_REDUCED):
-            for label, solver in VARIANTS.items():
-                if label == "default":
-                    continue
-                _announce(f"ours/{name}/{label}")
-                runs = [run_ours(program, inlined(path, solver)) for _ in range(repeats)]
-                kept.keep(run, f"ours/{name}/{label}", summarise(runs))
-        for form, variants in () if part == "ours" else _derivatives(name, complete):
+                kept.keep(run, solve.key(name), {**outcome, "ours": summarise(before + after)})
+            before = after
+        for label, solver in scope.variants(name).items():
+            _announce(f"ours/{name}/{label}")
+            kept.keep(run, f"ours/{name}/{label}", summarise(_repeated(program, inlined(path, solver))))
+        for form, variants in scope.derivatives(name):
             _announce(f"derivatives/{name}/{form}")
             arguments = ["derivatives", str(path), "--form", form, "--variants", *variants, "--json"]
             for one in _casadi(root, arguments) or []:
                 kept.keep(run, f"derivatives/{name}/{form}/{one['variant']}", one)
-    if not only and part != "casadi":
+    if "growth" in scope.tables:
         _growth(root, program, kept, run)
 
 
-def _solves(name: str, complete: bool) -> Iterator[Solve]:
-    if complete or name in QUICK_PAPER:
-        yield PAPER
-        yield from BEST_PAPER
-    if complete or name in QUICK_REDUCED:
-        yield REDUCED
-        yield from BEST_REDUCED
-
-
-def _derivatives(name: str, complete: bool) -> Iterator[tuple[str, list[str]]]:
-    if complete or name in QUICK_PAPER:
-        yield "full", ["nlpsol", "mapped", "composed", "compiled"]
-    if complete or name in QUICK_REDUCED:
-        yield "reduced", ["nlpsol", "mapped", "composed", "compiled"]
-    elif name == "slew_canadarm2":
-        yield "reduced", ["nlpsol", "mapped"]
+def _repeated(program: Path, scenario: dict) -> list[OurRun]:
+    return [run_ours(program, scenario) for _ in range(REPEATS)]
 
 
 def _growth(root: Path, program: Path, kept: Measurements, run: str) -> None:

@@ -9,7 +9,6 @@ from .measurements import Measurements
 from .ours import VARIANTS
 
 MISSING = "-"
-OTHER_RUN = "†"
 
 
 def render(kept: Measurements) -> str:
@@ -36,10 +35,10 @@ def _head(kept: Measurements) -> str:
         "not edit.",
         "",
         "All times are wall-clock seconds. *Ours* is `timing_s` trace + guess + solve of `righting solve`, "
-        "from parsed scenario to trajectory, the median of runs before and after each CasADi run; *process* "
-        "is the whole command with verification and files. CasADi's time is its solve call alone; building "
-        "and compiling come on top and are given apart. Both run with BLAS and OpenMP on one thread. A "
-        f"ratio marked {OTHER_RUN} sets numbers of two different runs against each other.",
+        "from parsed scenario to trajectory, the median of runs just before and just after the CasADi run "
+        "beside it; *process* is the whole command with verification and files. CasADi's time is its solve "
+        "call alone; building and compiling come on top and are given apart. Both run with BLAS and OpenMP "
+        "on one thread.",
         "",
         "CasADi is set up as its experts would: stage functions as flattened SX expressions with common "
         "subexpressions removed, mapped over the stages; exact Hessian; decision vector and constraints in "
@@ -73,9 +72,9 @@ def _head(kept: Measurements) -> str:
 def _paper_table(kept: Measurements) -> str:
     rows, ratios = [], []
     for name in MANEUVERS:
-        ours, theirs = kept.get(f"ours/{name}/default"), kept.get(PAPER.key(name))
-        ratio = _ratio(ours, theirs)
-        if ratio and ours["run"] == theirs["run"]:
+        theirs = kept.get(PAPER.key(name))
+        ours = theirs["ours"] if theirs else kept.get(f"ours/{name}/default")
+        if ratio := _ratio(ours, theirs):
             ratios.append(ratio)
         rows.append(
             [
@@ -109,7 +108,7 @@ def _paper_table(kept: Measurements) -> str:
     mean = ""
     if ratios:
         value = math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios))
-        mean = f"\n\nGeometric mean of the {len(ratios)} ratios measured in one run: {value:,.0f}."
+        mean = f"\n\nGeometric mean of the {len(ratios)} ratios: {value:,.0f}; least: {min(ratios):,.0f}."
     title = "## CasADi + Ipopt in the paper's form"
     note = (
         "13 + 2j states, constant guess, Ipopt and MUMPS as shipped in CasADi's wheel, derivatives by nlpsol "
@@ -121,11 +120,11 @@ def _paper_table(kept: Measurements) -> str:
 def _best_table(kept: Measurements, title: str, solves: tuple[Solve, ...]) -> str:
     rows = []
     for name in MANEUVERS:
-        ours = kept.get(f"ours/{name}/default")
         for solve in solves:
             theirs = kept.get(solve.key(name))
             if theirs is None:
                 continue
+            ours = theirs["ours"]
             rows.append(
                 [
                     name,
@@ -340,8 +339,7 @@ def _ratio_text(ours: dict | None, theirs: dict | None) -> str:
     ratio = _ratio(ours, theirs)
     if ratio is None:
         return MISSING
-    mark = "" if ours["run"] == theirs["run"] else OTHER_RUN
-    return f"{ratio:,.1f}{mark}" if ratio < 100 else f"{ratio:,.0f}{mark}"
+    return f"{ratio:,.1f}" if ratio < 100 else f"{ratio:,.0f}"
 
 
 def _excess(ours: dict | None, theirs: dict | None) -> str:
