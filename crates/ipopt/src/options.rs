@@ -207,6 +207,9 @@ options! {
     /// Whether the first iteration is already one of the restoration phase.
     start_with_resto: bool = false, "start_with_resto";
 
+    /// Whether the linear solver's steps are taken as they are, without a look at their residuals
+    /// and without iterative refinement.
+    fast_step_computation: bool = false, "fast_step_computation";
     /// How many steps of iterative refinement to make at least.
     min_refinement_steps: u32 = 1, "min_refinement_steps", Range::count(0.0);
     /// How many steps of iterative refinement to make at most.

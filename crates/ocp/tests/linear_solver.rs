@@ -93,7 +93,8 @@ fn no_solver_finds_what_does_not_exist_and_both_are_asked() {
     assert_eq!(solution.status, solve(&impossible, LinearSolver::Mumps).unwrap().status);
 }
 
-/// A solve that was stopped, or that ran out of iterations, is not begun again.
+/// A solve that was stopped is not begun again; one that ran out of iterations is, unless it is one
+/// start of many.
 #[test]
 fn what_ends_on_request_stays_ended() {
     let functions = StageFunctions::compile(&problem(3.0)).unwrap();
@@ -108,10 +109,15 @@ fn what_ends_on_request_stays_ended() {
     assert_eq!((stopped.status, stopped.iterations()), (Status::UserStop, 2));
     assert_eq!(stopped.linear_solver, UsedLinearSolver::Stage);
     let two = Options { max_iterations: 2, ..Options::default() };
-    let settings = Settings { ipopt: two, ..Settings::default() };
-    let cut = program.solve(&start(), &settings, |_| Control::Continue).unwrap();
-    assert_eq!((cut.status, cut.iterations()), (Status::IterationLimit, 2));
-    assert_eq!(cut.linear_solver, UsedLinearSolver::Stage);
+    for (retry_at_iteration_limit, used) in
+        [(false, UsedLinearSolver::Stage), (true, UsedLinearSolver::MumpsAfterStage)]
+    {
+        let settings =
+            Settings { ipopt: two.clone(), retry_at_iteration_limit, ..Settings::default() };
+        let cut = program.solve(&start(), &settings, |_| Control::Continue).unwrap();
+        assert_eq!((cut.status, cut.iterations()), (Status::IterationLimit, 2));
+        assert_eq!(cut.linear_solver, used);
+    }
 }
 
 /// Every function of the program at one point, and a whole solve.

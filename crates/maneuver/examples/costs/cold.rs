@@ -27,7 +27,7 @@ pub fn measured(scenario: &Scenario, linear_solver: LinearSolver) -> Outcome<Val
     let folder = tempfile::tempdir()?;
     let report = folder.path().join("ipopt.txt");
     let ipopt = Options { extra: IpoptTiming::options(&report), ..Options::default() };
-    let settings = Settings { ipopt, linear_solver };
+    let settings = Settings { ipopt, linear_solver, ..Settings::default() };
     let solution = program?.solve(&Start::Guess(guess), &settings, |_| Control::Continue)?;
     let cpu = IpoptTiming::read(&report)?;
     let seconds = Duration::as_secs_f64;

@@ -257,6 +257,7 @@ fn coarse_settings(scenario: &Scenario) -> Settings {
     let mut settings = settings(scenario);
     settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
     settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
+    settings.retry_at_iteration_limit = false;
     settings
 }
 
@@ -273,6 +274,7 @@ fn settings(scenario: &Scenario) -> Settings {
             file::LinearSolver::Mumps => LinearSolver::Mumps,
             file::LinearSolver::Stage => LinearSolver::Stage,
         },
+        ..Settings::default()
     }
 }
 
