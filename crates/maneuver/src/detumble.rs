@@ -2,6 +2,7 @@
 
 use righting_multibody::System;
 
+use crate::collision::CollisionModel;
 use crate::halton::Halton;
 use crate::scenario::Scenario;
 use crate::system_description::SystemDescription;
@@ -21,49 +22,106 @@ const FINEST: f64 = 1e-7;
 /// ‖ω‖ ≥ ‖h₀‖ / max_q λ_max(Ĩ(q)),
 /// ```
 ///
-/// the maximum over the joints' ranges. It is found from evenly spread postures by climbing from the
-/// best of them, the same way every time. Collisions do not count, so a bound may be out of reach.
+/// the maximum over the postures within the joints' limits that keep their clearances. It is found
+/// from evenly spread postures by climbing from the best of them, the same way every time. Whether
+/// the arm can get there, and in the time there is, does not count: a bound may be out of reach.
 pub fn rate_bound_rad_s(scenario: &Scenario) -> f64 {
     let momentum = scenario.initial().angular_momentum_n_m_s.norm();
-    momentum / largest_inertia(scenario.system())
+    momentum / largest_inertia(scenario.system(), scenario.collision())
 }
 
 /// max_q λ_max(Ĩ(q)), kg m².
-fn largest_inertia(system: &SystemDescription) -> f64 {
+fn largest_inertia(system: &SystemDescription, collision: &CollisionModel) -> f64 {
     let joints = system.joint_count();
-    let height = |unit: &[f64]| principal_inertia(&system.model, &system.joint_angles_at(unit));
-    let mut starts: Vec<(f64, Vec<f64>)> =
-        Halton::new(joints).take(SAMPLES).map(|unit| (height(&unit), unit)).collect();
-    starts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    starts.truncate(CLIMBS);
-    starts.into_iter().map(|(start, unit)| climb(start, unit, height)).fold(0.0, f64::max)
+    let inertia = |unit: &[f64]| principal_inertia(&system.model, &system.joint_angles_at(unit));
+    let is_clear = |unit: &[f64]| {
+        let posture = system.model.kinematics(&system.joint_angles_at(unit));
+        collision.clearances(&posture).all(|clearance| clearance.distance_m >= clearance.least_m)
+    };
+    let mut samples: Vec<(f64, Vec<f64>)> =
+        Halton::new(joints).take(SAMPLES).map(|unit| (inertia(&unit), unit)).collect();
+    samples.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let highest = |tops: Vec<(f64, Vec<f64>)>| {
+        let highest = tops.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
+        highest.expect("the climbs start from some sample")
+    };
+    let starts = samples.iter().take(CLIMBS).cloned();
+    let axes = directions(joints, false);
+    let (largest, unit) = highest(starts.map(|start| climb(start, &axes, inertia)).collect());
+    if is_clear(&unit) {
+        return largest;
+    }
+    let starts: Vec<_> =
+        samples.into_iter().filter(|(_, unit)| is_clear(unit)).take(CLIMBS).collect();
+    if starts.is_empty() {
+        return largest;
+    }
+    // Along the edge of what is clear, a step along one axis leads into a collision or downhill.
+    let diagonals = directions(joints, true);
+    let clear = |unit: &[f64]| if is_clear(unit) { inertia(unit) } else { f64::NEG_INFINITY };
+    highest(starts.into_iter().map(|start| climb(start, &diagonals, clear)).collect()).0
 }
 
-/// Compass search within the unit cube: steps along each axis while they go up, then shorter ones.
-fn climb(start: f64, mut unit: Vec<f64>, height: impl Fn(&[f64]) -> f64) -> f64 {
-    let mut highest = start;
+/// Both ways along every axis, and along the diagonals of every two if asked for.
+fn directions(dimensions: usize, with_diagonals: bool) -> Vec<Vec<(usize, f64)>> {
+    let ways = [1.0, -1.0];
+    let mut directions: Vec<Vec<(usize, f64)>> =
+        (0..dimensions).flat_map(|axis| ways.map(|way| vec![(axis, way)])).collect();
+    if with_diagonals {
+        for a in 0..dimensions {
+            for b in a + 1..dimensions {
+                directions.extend(ways.iter().flat_map(|&x| ways.map(|y| vec![(a, x), (b, y)])));
+            }
+        }
+    }
+    directions
+}
+
+/// Compass search within the unit cube: steps in each direction while they go up, then shorter ones.
+fn climb(
+    (mut highest, mut unit): (f64, Vec<f64>),
+    directions: &[Vec<(usize, f64)>],
+    height: impl Fn(&[f64]) -> f64,
+) -> (f64, Vec<f64>) {
     let mut step = 0.1;
     while step > FINEST {
         let before = highest;
-        for axis in 0..unit.len() {
-            for direction in [step, -step] {
-                let here = unit[axis];
-                unit[axis] = (here + direction).clamp(0.0, 1.0);
-                let found = height(&unit);
-                if found > highest {
-                    highest = found;
-                    break;
-                }
-                unit[axis] = here;
+        for direction in directions {
+            let mut there = unit.clone();
+            for &(axis, way) in direction {
+                there[axis] = (there[axis] + way * step).clamp(0.0, 1.0);
+            }
+            let found = height(&there);
+            if found > highest {
+                (highest, unit) = (found, there);
             }
         }
         if highest <= before {
             step *= 0.5;
         }
     }
-    highest
+    (highest, unit)
 }
 
 fn principal_inertia(model: &System, joint_angles_rad: &[f64]) -> f64 {
     model.locked_inertia(joint_angles_rad).symmetric_eigenvalues().max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_climb_follows_the_edge_of_what_is_clear() {
+        // Highest at (1, 0.2), where x + y = 1.2 meets the side of the square.
+        let height = |p: &[f64]| match p[0] + p[1] <= 1.2 {
+            true => 2.0 * p[0] + p[1],
+            false => f64::NEG_INFINITY,
+        };
+        let start = || (height(&[0.4, 0.5]), vec![0.4, 0.5]);
+        let (along_axes, _) = climb(start(), &directions(2, false), height);
+        let (highest, point) = climb(start(), &directions(2, true), height);
+        assert!((highest - 2.2).abs() < 1e-5 && (point[0] - 1.0).abs() < 1e-5, "{point:?}");
+        assert!(along_axes < highest, "{along_axes}");
+    }
 }
