@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use righting_maneuver::verifier::ATTITUDE_ERROR;
-use righting_maneuver::{PlanError, Solution, Status};
+use righting_maneuver::{PlanError, ReachError, Solution, Status};
 use righting_report::{ReportError, status_phrase};
 
 /// Why a command did not do what was asked. Messages are read at one glance.
@@ -42,6 +42,15 @@ pub enum Failure {
     /// The optimizer had nothing to start from.
     #[error("no acceptable plan: {0}")]
     NotPlanned(#[from] PlanError),
+    /// A search for what is possible could not begin or go on.
+    #[error("nothing to search: {0}")]
+    NotSearched(#[source] ReachError),
+    /// Not even the easiest maneuver tried succeeds.
+    #[error("no acceptable plan: not even {easiest}")]
+    OutOfReach {
+        /// Such as "in 480 s".
+        easiest: String,
+    },
     /// There is a plan, but it does not do what it claims.
     #[error("the plan failed its verification: {reason}")]
     Unproven {
@@ -53,6 +62,16 @@ pub enum Failure {
     /// The user asked to stop.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl From<ReachError> for Failure {
+    fn from(error: ReachError) -> Self {
+        match error {
+            ReachError::Plan(error) => Self::NotPlanned(error),
+            ReachError::Scenario(error) => Self::Input(error),
+            error => Self::NotSearched(error),
+        }
+    }
 }
 
 impl Failure {
@@ -70,8 +89,9 @@ impl Failure {
             | Self::OutputFolder { .. }
             | Self::Report(_)
             | Self::Stdout(_)
-            | Self::NotReady { .. } => 2,
-            Self::NoPlan { .. } | Self::NotPlanned(_) => 3,
+            | Self::NotReady { .. }
+            | Self::NotSearched(_) => 2,
+            Self::NoPlan { .. } | Self::NotPlanned(_) | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
             Self::Interrupted => 130,
         }
@@ -91,6 +111,10 @@ impl Failure {
                 Some("raise solver.max_iterations, or try solver.guess \"auto\"")
             }
             Self::NoPlan { .. } => Some("another solver.guess or a longer duration may help"),
+            Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
+            Self::OutOfReach { .. } => Some(
+                "wider limits, a smaller weights.control or more --starts may make it possible",
+            ),
             Self::Unproven { falls_short: true, .. } => {
                 Some("it misses its target: a longer duration or a smaller angle may help")
             }
@@ -103,7 +127,11 @@ impl Failure {
     pub fn follows_results(&self) -> bool {
         matches!(
             self,
-            Self::NotReady { .. } | Self::NoPlan { .. } | Self::Unproven { .. } | Self::Interrupted
+            Self::NotReady { .. }
+                | Self::NoPlan { .. }
+                | Self::OutOfReach { .. }
+                | Self::Unproven { .. }
+                | Self::Interrupted
         )
     }
 }

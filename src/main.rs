@@ -14,6 +14,7 @@ mod output;
 mod output_folder;
 mod power;
 mod progress;
+mod reach;
 mod schema;
 mod solve;
 mod verify;
@@ -44,6 +45,7 @@ Exit codes:
 enum Command {
     Solve(solve::Arguments),
     Verify(verify::Arguments),
+    Reach(reach::Arguments),
     Envelope(envelope::Arguments),
     Power(power::Arguments),
     Schema(schema::Arguments),
@@ -57,6 +59,7 @@ fn main() -> ExitCode {
     let result = match command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Reach(arguments) => reach::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -73,6 +76,7 @@ impl Command {
         match self {
             Self::Solve(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
+            Self::Reach(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Schema(_) => false,

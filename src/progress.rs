@@ -5,7 +5,9 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use righting_maneuver::IterationRecord;
 
-const TEMPLATE: &str = "{spinner} {msg}  {elapsed}";
+use crate::output;
+
+const TEMPLATE: &str = "{spinner} {prefix}{msg}  {elapsed}";
 const TICK: Duration = Duration::from_millis(100);
 
 /// One line on stderr that keeps changing; nothing where stderr is not a terminal.
@@ -35,6 +37,19 @@ impl Progress {
                 "iteration {:>4}  objective {:>12.5e}  infeasibility {:>8.1e}",
                 record.iteration, record.objective, record.primal_infeasibility
             ));
+        }
+    }
+
+    /// Says which of several solves this is.
+    pub fn name(&self, name: String) {
+        self.bar.set_prefix(name);
+    }
+
+    /// Prints a line that stays.
+    pub fn say(&self, line: &str) {
+        match self.bar.is_hidden() {
+            true => output::complain(line),
+            false => self.bar.println(line),
         }
     }
 

@@ -1,6 +1,6 @@
 //! `righting solve`: plan a maneuver, prove it, write it down.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -8,8 +8,8 @@ use righting_maneuver::detumble::rate_bound_rad_s;
 use righting_maneuver::solution::SCHEMA;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_maneuver::{
-    IterationRecord, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory,
-    Verification, Versions, plan, plan_from, verify,
+    IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
+    Trajectory, Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
 use righting_report::{attitude_svg, joints_svg, summary, write_whole};
@@ -33,10 +33,17 @@ pub struct Arguments {
     /// start from too.
     #[arg(long, value_name = "DIR")]
     warm_start: Option<PathBuf>,
+    /// A folder of such result folders: the nearest maneuver of the same arm and type is a start
+    /// too. To add this plan to it, name a folder in it with --out.
+    #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
+    library: Option<PathBuf>,
     /// Print the contents of solution.json and the files' paths as one JSON object.
     #[arg(long)]
     pub json: bool,
 }
+
+/// So many subfolders of a library that are of no use are named.
+const MOST_WARNINGS: usize = 10;
 
 /// What `--json` prints.
 #[derive(Serialize)]
@@ -52,9 +59,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let scenario = Scenario::read(&arguments.scenario)?;
     let load = started.elapsed();
-    let earlier = match &arguments.warm_start {
-        Some(folder) => Some(Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?),
-        None => None,
+    let mut note = None;
+    let earlier = match (&arguments.warm_start, &arguments.library) {
+        (Some(folder), _) => Some(Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?),
+        (None, Some(library)) => {
+            let (said, trajectory) = nearest(library, &scenario)?;
+            note = Some(said);
+            trajectory
+        }
+        (None, None) => None,
     };
     let folder = OutputFolder::open(&arguments.out)?;
 
@@ -63,10 +76,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         progress.show(record);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     };
-    let plan = match &earlier {
+    let mut plan = match &earlier {
         Some(earlier) => plan_from(&scenario, earlier, &mut on_iteration)?,
         None => plan(&scenario, &mut on_iteration)?,
     };
+    plan.notes.splice(..0, note);
     progress.show_stage("verifying");
     let checking = Instant::now();
     let verification = match plan.status.is_acceptable() {
@@ -87,6 +101,30 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     conclude(&solution)
 }
 
+/// What a reader of the plan should know of the library, and the motion to start from, if it holds one.
+fn nearest(folder: &Path, scenario: &Scenario) -> Result<(String, Option<Trajectory>), Failure> {
+    let mut library = Library::read(folder)?;
+    let neighbor = library.nearest(scenario);
+    let shown = folder.display();
+    for skipped in library.skipped().iter().take(MOST_WARNINGS) {
+        output::complain(&format!("warning: {shown}: skipped {skipped}"));
+    }
+    let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
+    if more > 0 {
+        output::complain(&format!("warning: {shown}: skipped {more} more"));
+    }
+    Ok(match neighbor {
+        Some(near) => (
+            format!(
+                "library maneuver {} was a start too (distance {:.3})",
+                near.name, near.distance
+            ),
+            Some(near.trajectory),
+        ),
+        None => (format!("library {shown} holds no maneuver of this type by this arm"), None),
+    })
+}
+
 /// Whether that is what was asked for.
 fn conclude(solution: &Solution) -> Result<(), Failure> {
     if solution.status == Status::Interrupted {
@@ -99,13 +137,13 @@ fn conclude(solution: &Solution) -> Result<(), Failure> {
 }
 
 /// What this command timed itself.
-struct Times {
-    load: Duration,
-    verify: Duration,
+pub struct Times {
+    pub load: Duration,
+    pub verify: Duration,
 }
 
 /// The contents of `solution.json`, but for the total time.
-fn assemble(
+pub fn assemble(
     scenario: &Scenario,
     plan: &Plan,
     verification: Verification,
@@ -159,7 +197,7 @@ fn versions(used: UsedLinearSolver) -> Versions {
 
 /// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
 /// that where it is, the rest is too.
-fn write(
+pub fn write(
     folder: &OutputFolder,
     solution: &mut Solution,
     trajectory: &Trajectory,

@@ -3,9 +3,11 @@
 mod bad_input;
 mod documents;
 mod envelope;
+mod library;
 mod machine;
 mod power;
 mod program;
+mod reach;
 mod scenarios;
 mod solve;
 mod streams;

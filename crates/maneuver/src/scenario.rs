@@ -19,8 +19,10 @@ pub const MAX_STEPS: usize = 100_000;
 pub const MAX_ITERATIONS: usize = 1_000_000;
 /// The most random starts.
 pub const MAX_STARTS: u64 = 1000;
+/// The longest duration, s.
+pub const LONGEST_S: f64 = 1e6;
 
-const DURATION_S: Bounds = Bounds::Above(0.0, 1e6);
+const DURATION_S: Bounds = Bounds::Above(0.0, LONGEST_S);
 const STEPS: Bounds = Bounds::Whole(1.0, MAX_STEPS as f64);
 const WEIGHT: Bounds = Bounds::Between(0.0, 1e12);
 const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e3);

@@ -5,37 +5,17 @@ mod support;
 use std::fs;
 use std::path::Path;
 
-use righting_maneuver::solution::SCHEMA;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
-use righting_maneuver::{
-    Error, Solution, Status, Terminal, Timing, Verified, Versions, objective, verify,
-    verify_directory,
-};
+use righting_maneuver::{Error, Verified, verify_directory};
 use serde_json::{Value, json};
-use support::{shipped, true_slew, varied};
+use support::{shipped, solution_of, true_slew, varied};
 use tempfile::TempDir;
 
 /// A folder as a solve writes it.
 fn folder() -> TempDir {
     let coarse = varied(&shipped("slew_4dof"), |file| file.horizon.steps = 60.0);
     let (scenario, trajectory) = true_slew(&coarse);
-    let solution = Solution {
-        schema: SCHEMA.to_owned(),
-        scenario: scenario.resolved().clone(),
-        scenario_sha256: scenario.resolved().sha256(),
-        versions: Versions::default(),
-        status: Status::Solved,
-        objective: objective(&scenario, &trajectory),
-        iterations: 7,
-        constraint_violation: f64::NAN,
-        terminal: Terminal::reached(&scenario, &trajectory),
-        timing_s: Timing::default(),
-        verification: verify(&scenario, &trajectory),
-        bound_deg_s: None,
-        reduction_percent: None,
-        notes: Vec::new(),
-        history: Vec::new(),
-    };
+    let solution = solution_of(&scenario, &trajectory);
     let folder = tempfile::tempdir().unwrap();
     solution.write_json(&folder.path().join(SOLUTION_FILE)).unwrap();
     trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE)).unwrap();

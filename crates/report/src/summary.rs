@@ -8,6 +8,7 @@ use righting_maneuver::{Check, Sense, Solution, Status};
 
 use crate::asked;
 use crate::number::short;
+use crate::table::aligned;
 
 /// The text summary of a solve, ready to print.
 ///
@@ -133,23 +134,7 @@ fn table(checks: &[Check]) -> Vec<String> {
     }
     let mut rows = vec![["", "check", "worst", "allowed", "margin", "where"].map(str::to_owned)];
     rows.extend(checks.iter().map(check_cells));
-    let width = |column: usize| {
-        rows.iter().map(|row| row[column].chars().count()).max().unwrap_or_default()
-    };
-    let widths: [usize; 6] = std::array::from_fn(width);
-    let right_aligned = [false, false, true, true, true, false];
-    rows.iter()
-        .map(|row| {
-            let mut text = String::new();
-            for (i, cell) in row.iter().enumerate() {
-                let padding = " ".repeat(widths[i] - cell.chars().count());
-                let cells = if right_aligned[i] { [&padding, cell] } else { [cell, &padding] };
-                let gap = if i == 0 { "" } else { "  " };
-                text.extend([gap, cells[0], cells[1]]);
-            }
-            text.trim_end().to_owned()
-        })
-        .collect()
+    aligned(&rows, [false, false, true, true, true, false])
 }
 
 fn check_cells(check: &Check) -> [String; 6] {

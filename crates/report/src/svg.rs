@@ -79,6 +79,15 @@ impl Svg {
         self.stroke(stroke);
     }
 
+    /// A filled circle with an outline.
+    pub fn dot(&mut self, center: [f64; 2], radius: f64, fill: &str, stroke: Stroke) {
+        self.push(format_args!(
+            "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{radius}\" fill=\"{fill}\" stroke=\"{}\" \
+             stroke-width=\"{}\"/>\n",
+            center[0], center[1], stroke.color, stroke.width
+        ));
+    }
+
     pub fn text(&mut self, at: [f64; 2], anchor: Anchor, size: f64, color: &str, text: &str) {
         self.push(format_args!(
             "<text x=\"{:.2}\" y=\"{:.2}\" font-size=\"{size}\" fill=\"{color}\"{}>{}</text>\n",

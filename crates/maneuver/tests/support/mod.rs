@@ -8,7 +8,11 @@ pub mod json_schema;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use righting_maneuver::{Interval, Node, Scenario, Trajectory, file};
+use righting_maneuver::solution::SCHEMA;
+use righting_maneuver::{
+    Interval, Node, Scenario, Solution, Status, Terminal, Timing, Trajectory, Versions, file,
+    objective, verify,
+};
 use righting_multibody::{State, System};
 
 pub fn scenarios() -> PathBuf {
@@ -98,6 +102,27 @@ pub fn true_slew(scenario: &Scenario) -> (Scenario, Trajectory) {
         file.maneuver.angle_deg = Some(angle_rad.to_degrees());
     });
     (scenario, trajectory)
+}
+
+/// What a solve that came to this trajectory would report.
+pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
+    Solution {
+        schema: SCHEMA.to_owned(),
+        scenario: scenario.resolved().clone(),
+        scenario_sha256: scenario.resolved().sha256(),
+        versions: Versions::default(),
+        status: Status::Solved,
+        objective: objective(scenario, trajectory),
+        iterations: 7,
+        constraint_violation: f64::NAN,
+        terminal: Terminal::reached(scenario, trajectory),
+        timing_s: Timing::default(),
+        verification: verify(scenario, trajectory),
+        bound_deg_s: None,
+        reduction_percent: None,
+        notes: Vec::new(),
+        history: Vec::new(),
+    }
 }
 
 /// The same trajectory with nodes or intervals changed.
