@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo test bench bench-all fmt lint setup
+.PHONY: demo test test-slurm bench bench-all fmt lint setup
 
 DEMO := out/demo
 
@@ -9,6 +9,11 @@ demo: setup
 
 test: setup
 	cargo test --workspace --locked
+
+# Starts Slurm's daemons, so not part of `test`: as root, with Debian's slurmctld and slurmd.
+test-slurm: setup
+	cargo build --release --locked
+	scripts/test-slurm.sh
 
 bench:
 	scripts/bench.sh

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use righting_maneuver::verifier::ATTITUDE_ERROR;
 use righting_maneuver::{PlanError, ReachError, Solution, Status};
 use righting_report::{ReportError, status_phrase};
+use righting_sweep::SweepError;
 
 /// Why a command did not do what was asked. Messages are read at one glance.
 #[derive(Debug, thiserror::Error)]
@@ -21,6 +22,9 @@ pub enum Failure {
         /// What is in the way.
         problem: String,
     },
+    /// A sweep cannot start or go on.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// A figure could not be written.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -87,6 +91,7 @@ impl Failure {
         match self {
             Self::Input(_)
             | Self::OutputFolder { .. }
+            | Self::Sweep(_)
             | Self::Report(_)
             | Self::Stdout(_)
             | Self::NotReady { .. }
@@ -102,6 +107,15 @@ impl Failure {
         match self {
             Self::Input(righting_maneuver::Error::Field { .. }) => {
                 Some("`righting schema` prints the format with every field")
+            }
+            Self::Sweep(SweepError::Input(righting_maneuver::Error::Field { .. })) => {
+                Some("`righting schema sweep` prints the format with every field")
+            }
+            Self::Sweep(SweepError::Occupied { .. }) => {
+                Some("add --resume to go on from there, or name another folder with --out")
+            }
+            Self::Sweep(SweepError::Write { .. }) => {
+                Some("what is recorded is safe: make room, then run it again with --resume")
             }
             Self::OutputFolder { .. } => Some("name another folder with --out"),
             Self::NoPlan { status: Status::Infeasible } => {

@@ -17,6 +17,7 @@ mod progress;
 mod reach;
 mod schema;
 mod solve;
+mod sweep;
 mod verify;
 
 use std::process::ExitCode;
@@ -48,6 +49,10 @@ enum Command {
     Reach(reach::Arguments),
     Envelope(envelope::Arguments),
     Power(power::Arguments),
+    Sweep(sweep::Arguments),
+    /// Evaluate the cases of a sweep that a parent process sends.
+    #[command(hide = true)]
+    SweepWorker,
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -62,6 +67,8 @@ fn main() -> ExitCode {
         Command::Reach(arguments) => reach::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::SweepWorker => sweep::work(),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
@@ -79,7 +86,8 @@ impl Command {
             Self::Reach(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
-            Self::Schema(_) => false,
+            Self::Sweep(arguments) => arguments.prints_json(),
+            Self::SweepWorker | Self::Schema(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }
     }

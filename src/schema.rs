@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use righting_maneuver::schema::{scenario_schema, system_schema, wheels_schema};
+use righting_sweep::sweep_schema;
 
 use crate::failure::Failure;
 use crate::output;
@@ -22,6 +23,8 @@ enum File {
     System,
     /// Reaction wheels to compare an arm with.
     Wheels,
+    /// Many maneuvers.
+    Sweep,
 }
 
 /// Prints the schema.
@@ -30,5 +33,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         File::Scenario => scenario_schema(),
         File::System => system_schema(),
         File::Wheels => wheels_schema(),
+        File::Sweep => sweep_schema(),
     })
 }

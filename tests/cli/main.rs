@@ -11,5 +11,7 @@ mod reach;
 mod scenarios;
 mod solve;
 mod streams;
+mod sweep;
+mod sweep_faults;
 mod usage;
 mod verify;

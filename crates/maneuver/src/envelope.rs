@@ -13,7 +13,7 @@ mod quadratic;
 mod samples;
 mod sizing;
 
-pub(crate) use directions::fibonacci;
+pub use directions::fibonacci;
 pub use sizing::Sizing;
 
 use std::path::Path;

@@ -9,7 +9,7 @@ use tempfile::Builder;
 use crate::error::Error;
 
 /// The largest JSON file that is read.
-pub(crate) const JSON_LIMIT_BYTES: u64 = 64 << 20;
+pub const JSON_LIMIT_BYTES: u64 = 64 << 20;
 
 /// Opens a file; `needed` says what it should be, for the message about a directory.
 pub(crate) fn open(file: &Path, needed: &'static str) -> Result<File, Error> {
@@ -21,8 +21,11 @@ pub(crate) fn open(file: &Path, needed: &'static str) -> Result<File, Error> {
     Ok(opened)
 }
 
-/// Reads a text file of at most `limit_bytes`.
-pub(crate) fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Result<String, Error> {
+/// Reads a text file of at most `limit_bytes`; `needed` says what it should be.
+///
+/// # Errors
+/// [`Error::Read`], [`Error::Directory`] and [`Error::TooLarge`].
+pub fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Result<String, Error> {
     let failed = |source| Error::Read { file: file.to_owned(), source };
     let opened = open(file, needed)?;
     let too_large = |bytes| Error::TooLarge { file: file.to_owned(), bytes, limit_bytes };
@@ -39,9 +42,12 @@ pub(crate) fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Resul
 }
 
 /// Replaces `file` by what `print` writes, or leaves it as it was.
-pub(crate) fn replace(
+///
+/// # Errors
+/// [`Error::Write`] if the folder is missing, read-only or full.
+pub fn replace(
     file: &Path,
-    print: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    print: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), Error> {
     let failed = |source| Error::Write { file: file.to_owned(), source };
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());

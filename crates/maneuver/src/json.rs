@@ -1,14 +1,14 @@
 //! JSON files read so that every complaint names the field by its path.
 //!
-//! Text becomes a tree in which no key appears twice ([`unique`]), and the tree becomes typed values
-//! through a reader whose error is a [`FieldError`] ([`decode`]). What the types cannot say is then
+//! Text becomes a tree in which no key appears twice (`unique`), and the tree becomes typed values
+//! through a reader whose error is a [`FieldError`] (`decode`). What the types cannot say is then
 //! checked value by value through a [`Place`].
 
 mod decode;
 mod place;
 mod unique;
 
-pub(crate) use place::{Bounds, Number, Place};
+pub use place::{Bounds, Number, Place};
 
 use std::path::{Path, PathBuf};
 
@@ -21,19 +21,25 @@ use unique::{SyntaxError, SyntaxProblem};
 
 /// A JSON file: no key twice in any object.
 #[derive(Debug)]
-pub(crate) struct Document {
+pub struct Document {
     file: PathBuf,
     root: Value,
 }
 
 impl Document {
     /// Reads a file; `needed` says what it should be, for the message about a directory.
-    pub(crate) fn read(file: &Path, needed: &'static str) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// Those of reading; [`Error::NotJson`], and [`Error::Field`] for a key that appears twice.
+    pub fn read(file: &Path, needed: &'static str) -> Result<Self, Error> {
         Self::parse(file, &files::read(file, needed, files::JSON_LIMIT_BYTES)?)
     }
 
     /// Parses the text of a file.
-    pub(crate) fn parse(file: &Path, text: &str) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// [`Error::NotJson`], and [`Error::Field`] for a key that appears twice.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, Error> {
         let file = file.to_owned();
         match unique::parse(text) {
             Ok(root) => Ok(Self { file, root }),
@@ -48,7 +54,10 @@ impl Document {
     }
 
     /// Reads the tree as a typed value.
-    pub(crate) fn decode<'a, T: Deserialize<'a>>(&'a self) -> Result<T, Error> {
+    ///
+    /// # Errors
+    /// [`Error::Field`] for the first field that does not fit the type.
+    pub fn decode<'a, T: Deserialize<'a>>(&'a self) -> Result<T, Error> {
         decode::decode(&self.root).map_err(|field| self.refuse(field))
     }
 
@@ -69,7 +78,7 @@ fn shown_key(key: &str) -> String {
 }
 
 /// A value as JSON, shortened to fit in a line.
-pub(crate) fn shown(value: &Value) -> String {
+pub fn shown(value: &Value) -> String {
     const LONGEST: usize = 60;
     let text = value.to_string();
     if text.chars().count() <= LONGEST {

@@ -137,8 +137,11 @@ impl Scenario {
         Self::from_file_at(scenario, file, &Place::root(file))
     }
 
-    /// Checks a scenario that stands at `place` in `file`.
-    pub(crate) fn from_file_at(
+    /// [`from_file`](Self::from_file) for a scenario that stands at `place` in `file`.
+    ///
+    /// # Errors
+    /// As [`from_file`](Self::from_file).
+    pub fn from_file_at(
         mut scenario: file::Scenario,
         file: &Path,
         place: &Place,

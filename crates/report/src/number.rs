@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 /// Three significant digits with a true minus sign.
-pub(crate) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let text = match value.abs() {
         0.0 => "0".to_owned(),
         a if !a.is_finite() => return "\u{2013}".to_owned(),

@@ -84,3 +84,20 @@ pub const COLUMN_GAP: f64 = 16.0;
 /// A limit is drawn to scale while the curves keep this share of the panel's height; otherwise it
 /// is drawn at the edge and marked as off scale.
 pub const LEAST_CURVE_SHARE: f64 = 0.15;
+
+/// Corners of the colour ramp: viridis (van der Walt and Smith, 2015), even in lightness for every
+/// kind of colour vision.
+const RAMP: [[u8; 3]; 6] =
+    [[68, 1, 84], [65, 68, 135], [42, 120, 142], [34, 168, 132], [122, 209, 81], [253, 231, 37]];
+
+/// The colour at `share` of the ramp, from 0 to 1.
+pub fn ramp(share: f64) -> String {
+    let last = (RAMP.len() - 1) as f64;
+    let at = if share.is_finite() { share.clamp(0.0, 1.0) * last } else { 0.0 };
+    let below = (at.floor() as usize).min(RAMP.len() - 2);
+    let [r, g, b]: [u8; 3] = std::array::from_fn(|i| {
+        let [low, high] = [RAMP[below][i], RAMP[below + 1][i]].map(f64::from);
+        (low + (at - below as f64) * (high - low)).round() as u8
+    });
+    format!("#{r:02X}{g:02X}{b:02X}")
+}

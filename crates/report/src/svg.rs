@@ -79,6 +79,14 @@ impl Svg {
         self.stroke(stroke);
     }
 
+    /// A filled rectangle.
+    pub fn rectangle(&mut self, corner: [f64; 2], size: [f64; 2], color: &str) {
+        self.push(format_args!(
+            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{color}\"/>\n",
+            corner[0], corner[1], size[0], size[1]
+        ));
+    }
+
     /// A filled circle with an outline.
     pub fn dot(&mut self, center: [f64; 2], radius: f64, fill: &str, stroke: Stroke) {
         self.push(format_args!(

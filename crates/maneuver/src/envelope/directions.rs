@@ -34,7 +34,7 @@ pub(super) fn octahedral(level: usize) -> Vec<Vector3<f64>> {
 }
 
 /// `count` unit vectors on a spherical Fibonacci lattice, each standing for the same area.
-pub(crate) fn fibonacci(count: usize) -> impl Iterator<Item = Vector3<f64>> {
+pub fn fibonacci(count: usize) -> impl Iterator<Item = Vector3<f64>> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |i| {
         let z = 1.0 - (2 * i + 1) as f64 / count as f64;

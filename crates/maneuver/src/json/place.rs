@@ -7,37 +7,43 @@ use crate::error::{Error, FieldError, FieldProblem};
 
 /// A field of a file, to complain about.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub struct Place {
     file: PathBuf,
     path: String,
 }
 
 impl Place {
-    pub(crate) fn root(file: &Path) -> Self {
+    /// The whole of a file.
+    pub fn root(file: &Path) -> Self {
         Self { file: file.to_owned(), path: String::new() }
     }
 
-    pub(crate) fn key(&self, key: &str) -> Self {
+    /// The field `key` of the object here.
+    pub fn key(&self, key: &str) -> Self {
         let separator = if self.path.is_empty() { "" } else { "." };
         Self { file: self.file.clone(), path: format!("{}{separator}{key}", self.path) }
     }
 
-    pub(crate) fn index(&self, index: usize) -> Self {
+    /// The element `index` of the array here.
+    pub fn index(&self, index: usize) -> Self {
         Self { file: self.file.clone(), path: format!("{}[{index}]", self.path) }
     }
 
     /// The value here is not allowed.
-    pub(crate) fn refuse(&self, value: impl fmt::Display, allowed: impl Into<String>) -> Error {
+    pub fn refuse(&self, value: impl fmt::Display, allowed: impl Into<String>) -> Error {
         self.error(FieldProblem::NotAllowed { value: value.to_string(), allowed: allowed.into() })
     }
 
     /// Nothing is here, but something is needed.
-    pub(crate) fn missing(&self, allowed: impl Into<String>) -> Error {
+    pub fn missing(&self, allowed: impl Into<String>) -> Error {
         self.error(FieldProblem::Missing { allowed: allowed.into() })
     }
 
     /// The number, if it is within bounds.
-    pub(crate) fn within(&self, value: f64, bounds: Bounds) -> Result<f64, Error> {
+    ///
+    /// # Errors
+    /// [`Error::Field`] otherwise.
+    pub fn within(&self, value: f64, bounds: Bounds) -> Result<f64, Error> {
         if bounds.contain(value) {
             Ok(value)
         } else {
@@ -46,7 +52,10 @@ impl Place {
     }
 
     /// Every number, if all are within bounds.
-    pub(crate) fn all_within<const COUNT: usize>(
+    ///
+    /// # Errors
+    /// [`Error::Field`] otherwise, with the index of the first that is not.
+    pub fn all_within<const COUNT: usize>(
         &self,
         values: [f64; COUNT],
         bounds: Bounds,
@@ -65,7 +74,7 @@ impl Place {
 
 /// The numbers a field may hold.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Bounds {
+pub enum Bounds {
     /// From the first to the second.
     Between(f64, f64),
     /// More than the first, up to the second.
@@ -101,7 +110,7 @@ impl fmt::Display for Bounds {
 }
 
 /// A number as a person writes it.
-pub(crate) struct Number(pub f64);
+pub struct Number(pub f64);
 
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

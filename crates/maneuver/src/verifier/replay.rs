@@ -16,11 +16,16 @@ impl Replay {
     /// Integrates the full equations of motion. From a state that cannot be followed, all later
     /// ones are NaN.
     pub fn of(scenario: &Scenario, trajectory: &Trajectory) -> Self {
+        Self::from(trajectory.start().state(), scenario, trajectory)
+    }
+
+    /// The same from another start.
+    pub fn from(start: State<f64>, scenario: &Scenario, trajectory: &Trajectory) -> Self {
         let model = &scenario.system().model;
         let horizon = scenario.horizon();
         let mut integrator = DormandPrince::new();
-        let mut x = trajectory.start().state().to_vec();
-        let mut nodes = vec![trajectory.start().state()];
+        let mut x = start.to_vec();
+        let mut nodes = vec![start];
         for (k, interval) in trajectory.intervals().iter().enumerate() {
             let duration_s = horizon.time_s(k + 1) - horizon.time_s(k);
             let control = &interval.joint_accelerations_rad_s2;

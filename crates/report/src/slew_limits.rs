@@ -1,0 +1,77 @@
+//! `slew_limits.svg`: how far slews go as something else than their axis varies.
+
+use righting_sweep::{Kind, SlewLimit, Slews};
+
+use crate::axis::Range;
+use crate::chart::{Chart, Labels};
+use crate::number::short;
+use crate::style;
+use crate::svg::Stroke;
+
+/// Colours of the curves.
+const COLORS: [&str; 5] = [style::MAGNITUDE, style::Z, style::Y, style::X, style::W];
+
+/// The figure of a sweep over slew angles and one or two numbers more, as an SVG document: the largest
+/// angle up to which all succeed, over the number that varies last, one curve a value of the one before.
+/// Curves are means over everything else (such as axes), bars the least and the most. None if no number
+/// varies.
+pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
+    let varying = |&(i, _): &(usize, _)| !distinct(slews, i).is_empty();
+    let numbers: Vec<(usize, &righting_sweep::Column)> = slews
+        .columns
+        .iter()
+        .enumerate()
+        .filter(|(_, column)| column.kind == Kind::Number)
+        .filter(varying)
+        .collect();
+    let (&(x_at, x_column), rest) = numbers.split_last()?;
+    let series = rest.last().copied();
+    let xs = Range::of(distinct(slews, x_at))?.padded(1e-9);
+    let highest = slews.limits.iter().map(|limit| limit.all_up_to_deg).fold(1.0, f64::max);
+    let labels = Labels {
+        title: name,
+        subtitle: "Largest angle up to which all slews succeed: mean, least and most over the rest",
+        x: &x_column.name,
+        y: "Angle [deg]",
+    };
+    let mut chart = Chart::new(&labels, xs, Range { low: 0.0, high: 1.06 * highest });
+    let values = series.map_or(vec![f64::NAN], |(at, _)| distinct(slews, at));
+    let mut named = 0.0;
+    for (i, value) in values.iter().enumerate().rev() {
+        let color = COLORS[i % COLORS.len()];
+        let of_series =
+            |limit: &&SlewLimit| series.is_none_or(|(at, _)| number(limit, at) == *value);
+        let shift = xs.span() * 0.006 * (i as f64 - 0.5 * (values.len() - 1) as f64);
+        let mut points = Vec::new();
+        for x in distinct(slews, x_at) {
+            let limits = slews.limits.iter().filter(of_series).filter(|l| number(l, x_at) == x);
+            let angles: Vec<f64> = limits.map(|limit| limit.all_up_to_deg).collect();
+            let Some(range) = Range::of(angles.iter().copied()) else { continue };
+            points.push([x + shift, angles.iter().sum::<f64>() / angles.len() as f64]);
+            let bar = Stroke { color: style::FRAME, width: style::HAIR_WIDTH, dash: "" };
+            chart.curve(&[[x + shift, range.low], [x + shift, range.high]], bar);
+        }
+        for &point in &points {
+            let at = chart.place(point);
+            chart.svg.dot(at, 3.5, color, Stroke { color: style::PAPER, width: 0.5, dash: "" });
+        }
+        chart.curve(&points, Stroke { color, width: style::CURVE_WIDTH, dash: "" });
+        if let (Some(&[_, last]), Some((_, column))) = (points.last(), series) {
+            let text = format!("{} {}", column.name, short(*value));
+            named = chart.name(last, named, color, &text);
+        }
+    }
+    Some(chart.svg.finish())
+}
+
+fn number(limit: &SlewLimit, column: usize) -> f64 {
+    limit.settings[column].as_f64().unwrap_or(f64::NAN)
+}
+
+/// The values of a column, in order; none if there is only one.
+fn distinct(slews: &Slews, column: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = slews.limits.iter().map(|limit| number(limit, column)).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() > 1 { values } else { Vec::new() }
+}

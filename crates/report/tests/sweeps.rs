@@ -1,0 +1,75 @@
+//! Figures of sweeps: of well-formed XML, with a mark a slew.
+
+use righting_report::{errors_svg, slew_limits_svg, slews_svg};
+use righting_sweep::{CaseId, Column, Kind, SlewLimit, SlewPoint, Slews};
+use serde_json::json;
+
+fn count(svg: &str, tag: &str) -> usize {
+    let document = roxmltree::Document::parse(svg).expect("well-formed");
+    document.descendants().filter(|node| node.has_tag_name(tag)).count()
+}
+
+/// Slews of 10° and 20° about two axes and for three durations; the last one fails.
+fn slews() -> Slews {
+    let column = |name: &str, kind| Column {
+        name: name.to_owned(),
+        field: name.to_owned(),
+        relative: false,
+        kind,
+    };
+    let columns = vec![column("axis", Kind::Vector(3)), column("time<s>", Kind::Number)];
+    let mut slews = Slews { points: Vec::new(), columns, limits: Vec::new() };
+    for axis in [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8]] {
+        for time_s in [10, 20, 30] {
+            let fails = axis[0] == 0.0 && time_s == 30;
+            for angle_deg in [10.0, 20.0] {
+                slews.points.push(SlewPoint {
+                    case_id: CaseId(0),
+                    axis,
+                    angle_deg,
+                    succeeded: !(fails && angle_deg == 20.0),
+                    objective: 1e-6 * angle_deg,
+                    limit: slews.limits.len(),
+                });
+            }
+            slews.limits.push(SlewLimit {
+                settings: vec![json!(axis), json!(time_s)],
+                axis,
+                tried: 2,
+                succeeded: 2,
+                max_angle_deg: 20.0,
+                all_up_to_deg: if fails { 10.0 } else { 20.0 },
+            });
+        }
+    }
+    slews
+}
+
+#[test]
+fn every_slew_is_a_disc_or_a_cross_in_both_views() {
+    let svg = slews_svg("a & b", &slews());
+    assert_eq!(count(&svg, "circle"), 2 * 11);
+    assert!(svg.contains("11 of 12 slews succeed"), "{svg}");
+    let mut none = slews();
+    none.points.clear();
+    assert_eq!(count(&slews_svg("none", &none), "circle"), 0);
+}
+
+#[test]
+fn limits_are_drawn_over_the_number_that_varies() {
+    let svg = slew_limits_svg("limits", &slews()).expect("a number varies");
+    assert_eq!(count(&svg, "circle"), 3);
+    let mut fixed = slews();
+    fixed.columns[1].kind = Kind::Text;
+    assert_eq!(slew_limits_svg("limits", &fixed), None);
+}
+
+#[test]
+fn errors_are_summed_up_by_their_quantiles() {
+    let errors: Vec<f64> = (1..=100).map(|i| 0.01 * f64::from(i)).collect();
+    let svg = errors_svg("errors", &errors).expect("there are some");
+    assert!(svg.contains("half end within 0.5°, 95 % within 0.95°, all within 1°"), "{svg}");
+    assert_eq!(count(&svg, "svg"), 1);
+    assert_eq!(errors_svg("errors", &[f64::NAN]), None);
+    assert!(errors_svg("errors", &[0.0, 0.0]).is_some_and(|svg| count(&svg, "path") > 0));
+}

@@ -1,0 +1,133 @@
+//! One case after the other, in one thread.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use righting_maneuver::{
+    Plan, Scenario, Status, Terminal, Trajectory, fly, plan_with_threads, verify,
+};
+use righting_ocp::Control;
+use serde_json::Value;
+
+use crate::outcome::{CaseStatus, Flown, Outcome, Trouble};
+use crate::worker::Setup;
+
+/// What errors call a scenario that stands in no file.
+const NO_FILE: &str = "case";
+
+/// Evaluates cases as a sweep asks for.
+pub(crate) struct Evaluator {
+    time_limit: Duration,
+    /// The plan to fly, or why there is none; planned when the first case needs it.
+    flown: Option<Result<Trajectory, Outcome>>,
+    /// The scenario to plan once and fly in every case; none if every case is planned.
+    planned: Option<Value>,
+}
+
+impl Evaluator {
+    pub fn new(setup: Setup) -> Self {
+        let time_limit = Duration::from_secs_f64(setup.time_limit_s);
+        Self { time_limit, flown: None, planned: setup.planned }
+    }
+
+    /// What a case comes to, and how long its plan took.
+    pub fn evaluate(&mut self, scenario: &Value) -> (Outcome, Duration) {
+        let started = Instant::now();
+        let outcome = match checked(scenario) {
+            Err(refused) => refused,
+            Ok(scenario) => match self.planned.take() {
+                Some(base) => {
+                    let outcome = self.flown_in(&base, &scenario);
+                    self.planned = Some(base);
+                    outcome
+                }
+                None => self.planned_and_verified(&scenario).map_or_else(|o| o, |(o, _)| o),
+            },
+        };
+        (outcome, started.elapsed())
+    }
+
+    /// Plans and verifies; the plan too, where it passed.
+    fn planned_and_verified(
+        &self,
+        scenario: &Scenario,
+    ) -> Result<(Outcome, Option<Trajectory>), Outcome> {
+        let plan = self.plan(scenario)?;
+        let terminal = Terminal::reached(scenario, &plan.trajectory);
+        let verification = plan.status.is_acceptable().then(|| verify(scenario, &plan.trajectory));
+        let verified = verification.as_ref().is_some_and(|verification| verification.passed);
+        let failed = verification.as_ref().and_then(|verification| verification.failures().next());
+        let reason = match failed {
+            Some(check) => Some(check.to_string()),
+            None if verified => None,
+            None => Some(plan.notes.first().cloned().unwrap_or_default()),
+        };
+        let outcome = Outcome {
+            status: CaseStatus::Optimizer(plan.status),
+            verified,
+            attitude_error: terminal.attitude_error,
+            final_rate_deg_s: terminal.angular_rate_deg_s,
+            joint_rate_deg_s: terminal.joint_rate_deg_s,
+            objective: plan.objective,
+            iterations: plan.iterations,
+            reason: reason.filter(|reason| !reason.is_empty()),
+        };
+        Ok((outcome, verified.then_some(plan.trajectory)))
+    }
+
+    fn plan(&self, scenario: &Scenario) -> Result<Plan, Outcome> {
+        let started = Instant::now();
+        // Cases are what runs in parallel, not the starts of one.
+        let plan = plan_with_threads(scenario, NonZeroUsize::MIN, &mut |_| {
+            if started.elapsed() < self.time_limit { Control::Continue } else { Control::Stop }
+        });
+        match plan {
+            Err(error) => Err(Outcome::of_trouble(Trouble::NotPlanned, error.to_string())),
+            Ok(plan) if plan.status == Status::Interrupted => {
+                Err(Outcome::out_of_time(self.time_limit.as_secs_f64()))
+            }
+            Ok(plan) => Ok(plan),
+        }
+    }
+
+    fn flown_in(&mut self, base: &Value, scenario: &Scenario) -> Outcome {
+        if self.flown.is_none() {
+            self.flown = Some(self.plan_to_fly(base));
+        }
+        let plan = match self.flown.as_ref() {
+            Some(Ok(plan)) => plan,
+            Some(Err(outcome)) => return outcome.clone(),
+            None => unreachable!("planned just now"),
+        };
+        let (terminal, verification) = fly(scenario, plan);
+        Outcome {
+            status: CaseStatus::Flown(Flown::Flown),
+            verified: verification.passed,
+            attitude_error: terminal.attitude_error,
+            final_rate_deg_s: terminal.angular_rate_deg_s,
+            joint_rate_deg_s: terminal.joint_rate_deg_s,
+            objective: f64::NAN,
+            iterations: 0,
+            reason: verification.failures().next().map(ToString::to_string),
+        }
+    }
+
+    fn plan_to_fly(&self, base: &Value) -> Result<Trajectory, Outcome> {
+        let (outcome, plan) = self.planned_and_verified(&checked(base)?)?;
+        plan.ok_or_else(|| {
+            let reason = outcome.reason.unwrap_or_default();
+            let reason = format!("no plan to fly: {}: {reason}", outcome.status);
+            Outcome::of_trouble(Trouble::NotPlanned, reason)
+        })
+    }
+}
+
+/// The scenario, or the case refused.
+fn checked(scenario: &Value) -> Result<Scenario, Outcome> {
+    Scenario::parse(&scenario.to_string(), Path::new(NO_FILE)).map_err(|error| {
+        let text = error.to_string();
+        let text = text.strip_prefix("case: ").unwrap_or(&text);
+        Outcome::of_trouble(Trouble::Refused, text)
+    })
+}
