@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo test test-slurm bench bench-all fmt lint setup
+.PHONY: demo test test-slurm bench bench-all page fmt lint setup
 
 DEMO := out/demo
 
@@ -7,7 +7,8 @@ demo: setup
 	cargo build --release --locked
 	cargo run --release --locked --quiet -- solve scenarios/slew_4dof.json --out $(DEMO)
 
-test: setup
+test:
+	@scripts/setup.sh test
 	cargo test --workspace --locked
 
 # Starts Slurm's daemons, so not part of `test`: as root, with Debian's slurmctld and slurmd.
@@ -20,6 +21,10 @@ bench:
 
 bench-all:
 	scripts/bench.sh --all
+
+# The bundle of the interactive page, from its sources; needs Node, which the build does not.
+page:
+	cd crates/report/page && npm ci --silent && npm run --silent check && npm run --silent build
 
 fmt:
 	cargo fmt --all

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes sure that everything the build needs is there; with "bench", also what the comparison needs.
+# Makes sure that everything the build needs is there; with "test", also the browser that the tests
+# drive, with "bench", also what the comparison needs.
 # Installs missing Debian or Ubuntu packages when it may, otherwise prints the line that does.
 set -eu
 
@@ -10,6 +11,12 @@ missing() {
     command -v pkg-config >/dev/null 2>&1 || printf ' pkg-config'
     { command -v pkg-config >/dev/null 2>&1 && pkg-config --exists ipopt; } ||
         printf ' coinor-libipopt-dev'
+    if [ "${1:-}" = test ] && [ -z "${RIGHTING_BROWSER:-}" ]; then
+        for browser in chromium chromium-browser google-chrome google-chrome-stable chrome none; do
+            command -v "$browser" >/dev/null 2>&1 && break
+        done
+        [ "$browser" = none ] && printf ' chromium'
+    fi
     if [ "${1:-}" = bench ]; then
         python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || printf ' python3-venv'
     fi
@@ -37,7 +44,7 @@ packages=$(missing "${1:-}")
 
 if ! command -v apt-get >/dev/null 2>&1; then
     say "error: not installed (Debian's names):$packages"
-    say "       install Ipopt with its headers, pkg-config and a C compiler, then run this again"
+    say "       install these (Ipopt with its headers), then run this again"
     exit 1
 fi
 

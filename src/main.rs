@@ -15,6 +15,7 @@ mod output_folder;
 mod power;
 mod progress;
 mod reach;
+mod report;
 mod schema;
 mod solve;
 mod sweep;
@@ -47,6 +48,7 @@ enum Command {
     Solve(solve::Arguments),
     Verify(verify::Arguments),
     Reach(reach::Arguments),
+    Report(report::Arguments),
     Envelope(envelope::Arguments),
     Power(power::Arguments),
     Sweep(sweep::Arguments),
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Reach(arguments) => reach::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
@@ -74,7 +77,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => report(&failure, json),
+        Err(failure) => complain(&failure, json),
     }
 }
 
@@ -84,6 +87,7 @@ impl Command {
             Self::Solve(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
             Self::Reach(arguments) => arguments.json,
+            Self::Report(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
@@ -94,7 +98,7 @@ impl Command {
 }
 
 /// Says on stderr what went wrong; who asked for JSON gets one object whatever happens.
-fn report(failure: &Failure, json: bool) -> ExitCode {
+fn complain(failure: &Failure, json: bool) -> ExitCode {
     output::complain(&format!("error: {failure}"));
     if let Some(hint) = failure.hint() {
         output::complain(&format!("  hint: {hint}"));

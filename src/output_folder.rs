@@ -27,27 +27,40 @@ pub struct ResultFiles {
     /// Figure of the joints.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joints: Option<PathBuf>,
+    /// The interactive page.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub report: Option<PathBuf>,
 }
 
 /// The figure of the base.
 pub const ATTITUDE_FILE: &str = "attitude.svg";
 /// The figure of the joints.
 pub const JOINTS_FILE: &str = "joints.svg";
+/// The interactive page.
+pub const REPORT_FILE: &str = "report.html";
 /// What the plan's motion costs.
 pub const POWER_FILE: &str = "power.json";
 /// The figure of it.
 pub const POWER_FIGURE_FILE: &str = "power.svg";
 
 /// Everything that belongs to a plan.
-const ALL: [&str; 6] =
-    [TRAJECTORY_FILE, SOLUTION_FILE, ATTITUDE_FILE, JOINTS_FILE, POWER_FILE, POWER_FIGURE_FILE];
+const ALL: [&str; 7] = [
+    TRAJECTORY_FILE,
+    SOLUTION_FILE,
+    ATTITUDE_FILE,
+    JOINTS_FILE,
+    REPORT_FILE,
+    POWER_FILE,
+    POWER_FIGURE_FILE,
+];
 
 impl ResultFiles {
     /// Those that there are, in the order they are listed to a reader.
     pub fn paths(&self) -> Vec<PathBuf> {
-        let Self { trajectory, solution, attitude, joints } = self;
-        let files = [trajectory.as_ref(), Some(solution), attitude.as_ref(), joints.as_ref()];
-        files.into_iter().flatten().cloned().collect()
+        let Self { trajectory, solution, attitude, joints, report } = self;
+        let figures = [attitude, joints, report].map(Option::as_ref);
+        let files = [trajectory.as_ref(), Some(solution)].into_iter().chain(figures);
+        files.flatten().cloned().collect()
     }
 }
 

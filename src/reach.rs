@@ -8,7 +8,7 @@ use righting_maneuver::Scenario;
 use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_maneuver::scenario::MAX_STARTS;
 use righting_ocp::Control;
-use righting_report::{reach_summary, reach_svg, write_whole};
+use righting_report::{reach_summary, reach_svg, report_html, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -236,7 +236,10 @@ fn keep(
         let times = Times { load, verify: *verify };
         let mut solution = assemble(scenario, plan, verification.clone(), times);
         let plan_folder = OutputFolder::open(&plan_folder)?;
-        files.extend(write(&plan_folder, &mut solution, &plan.trajectory, started)?.paths());
+        let page = report_html(scenario, &solution, &plan.trajectory);
+        let plan_files =
+            write(&plan_folder, &mut solution, &plan.trajectory, Some(&page), started)?;
+        files.extend(plan_files.paths());
     } else if plan_folder.is_dir() {
         OutputFolder::open(&plan_folder)?.remove_earlier_plan()?;
     }

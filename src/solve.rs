@@ -12,12 +12,12 @@ use righting_maneuver::{
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
-use righting_report::{attitude_svg, joints_svg, summary, write_whole};
+use righting_report::{attitude_svg, joints_svg, report_html, summary, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::output_folder::{ATTITUDE_FILE, JOINTS_FILE, OutputFolder, ResultFiles};
+use crate::output_folder::{ATTITUDE_FILE, JOINTS_FILE, OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
 use crate::{build, output};
 
@@ -26,7 +26,8 @@ use crate::{build, output};
 pub struct Arguments {
     /// The scenario, a JSON file.
     scenario: PathBuf,
-    /// The folder for trajectory.csv, solution.json, attitude.svg and joints.svg; made if missing.
+    /// The folder for trajectory.csv, solution.json, attitude.svg, joints.svg and report.html; made
+    /// if missing.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// An earlier result folder of the same arm (another angle, axis, duration, grid or mass) to
@@ -37,6 +38,9 @@ pub struct Arguments {
     /// too. To add this plan to it, name a folder in it with --out.
     #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
     library: Option<PathBuf>,
+    /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
+    #[arg(long)]
+    no_report: bool,
     /// Print the contents of solution.json and the files' paths as one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -90,7 +94,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let verify = checking.elapsed();
     let times = Times { load, verify };
     let mut solution = assemble(&scenario, &plan, verification, times);
-    let files = write(&folder, &mut solution, &plan.trajectory, started)?;
+    let page = (!arguments.no_report && plan.status.is_acceptable())
+        .then(|| report_html(&scenario, &solution, &plan.trajectory));
+    let files = write(&folder, &mut solution, &plan.trajectory, page.as_deref(), started)?;
     drop(progress);
 
     if arguments.json {
@@ -196,11 +202,12 @@ fn versions(used: UsedLinearSolver) -> Versions {
 }
 
 /// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
-/// that where it is, the rest is too.
+/// that where it is, the rest is too. `page` is the plan's, if it is to have one.
 pub fn write(
     folder: &OutputFolder,
     solution: &mut Solution,
     trajectory: &Trajectory,
+    page: Option<&str>,
     started: Instant,
 ) -> Result<ResultFiles, Failure> {
     folder.remove_earlier_plan()?;
@@ -210,13 +217,15 @@ pub fn write(
         solution: path(SOLUTION_FILE),
         attitude: None,
         joints: None,
+        report: None,
     };
     if solution.status.is_acceptable() {
         trajectory.write_csv(&path(TRAJECTORY_FILE))?;
         files.trajectory = Some(path(TRAJECTORY_FILE));
-        let figure = |name, text: String| write_whole(folder.path(), name, text.as_bytes());
-        files.attitude = Some(figure(ATTITUDE_FILE, attitude_svg(solution, trajectory))?);
-        files.joints = Some(figure(JOINTS_FILE, joints_svg(solution, trajectory))?);
+        let figure = |name, text: &str| write_whole(folder.path(), name, text.as_bytes());
+        files.attitude = Some(figure(ATTITUDE_FILE, &attitude_svg(solution, trajectory))?);
+        files.joints = Some(figure(JOINTS_FILE, &joints_svg(solution, trajectory))?);
+        files.report = page.map(|page| figure(REPORT_FILE, page)).transpose()?;
     }
     solution.timing_s.total = started.elapsed().as_secs_f64();
     solution.write_json(&files.solution)?;

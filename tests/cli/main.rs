@@ -1,10 +1,14 @@
 //! The `righting` program as its users run it: exit codes, messages, files.
 
 mod bad_input;
+#[cfg(unix)]
+mod browser;
 mod documents;
 mod envelope;
 mod library;
 mod machine;
+#[cfg(unix)]
+mod page;
 mod power;
 mod program;
 mod reach;

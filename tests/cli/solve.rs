@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use crate::program::{files_in, folder_with, righting, small_detumble, small_slew, solve};
 
-const ALL_FILES: [&str; 4] = ["attitude.svg", "joints.svg", "solution.json", "trajectory.csv"];
+const ALL_FILES: [&str; 5] =
+    ["attitude.svg", "joints.svg", "report.html", "solution.json", "trajectory.csv"];
 
 fn read_json(path: &std::path::Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("readable")).expect("JSON")
@@ -57,7 +58,7 @@ fn json_is_the_solution_with_its_files_and_nothing_else() {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let mut printed = run.json();
     let files = printed.as_object_mut().expect("an object").remove("files").expect("files");
-    for name in ["trajectory", "solution", "attitude", "joints"] {
+    for name in ["trajectory", "solution", "attitude", "joints", "report"] {
         let path = files[name].as_str().expect("a path");
         assert!(folder.path().join(path).is_file(), "{path}");
     }

@@ -14,7 +14,7 @@ fn solved() -> tempfile::TempDir {
 }
 
 /// Changes the cells of one row of the trajectory.
-fn tamper(folder: &Path, row: usize, change: impl Fn(&[String], &mut Vec<String>)) {
+pub fn tamper(folder: &Path, row: usize, change: impl Fn(&[String], &mut Vec<String>)) {
     let path = folder.join("out/trajectory.csv");
     let text = std::fs::read_to_string(&path).expect("readable");
     let mut lines: Vec<Vec<String>> =
@@ -29,7 +29,8 @@ fn column(header: &[String], name: &str) -> usize {
     header.iter().position(|cell| cell == name).expect("a column of the table")
 }
 
-fn add(name: &'static str, amount: f64) -> impl Fn(&[String], &mut Vec<String>) {
+/// Adds to a number of the row.
+pub fn add(name: &'static str, amount: f64) -> impl Fn(&[String], &mut Vec<String>) {
     move |header, row| {
         let cell = &mut row[column(header, name)];
         *cell = format!("{:.16e}", cell.parse::<f64>().expect("a number") + amount);

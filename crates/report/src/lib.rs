@@ -1,4 +1,4 @@
-//! Figures and summaries of solved maneuvers.
+//! Figures, pages and summaries of solved maneuvers.
 //!
 //! Everything here reads results, a [`Solution`](righting_maneuver::Solution) with its
 //! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
@@ -32,6 +32,8 @@ mod figure;
 mod files;
 mod joints;
 mod number;
+mod numbers;
+mod page;
 mod panel;
 mod power;
 mod reach;
@@ -50,6 +52,7 @@ pub use errors::errors_svg;
 pub use files::write_whole;
 pub use joints::joints_svg;
 pub use number::short;
+pub use page::report_html;
 pub use power::{PowerComparison, power_svg, power_table};
 pub use reach::reach_svg;
 pub use reach_summary::reach_summary;

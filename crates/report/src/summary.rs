@@ -117,7 +117,8 @@ fn reached(solution: &Solution) -> String {
     }
 }
 
-fn verdict(solution: &Solution) -> String {
+/// Whether the plan is proven, in one line.
+pub(crate) fn verdict(solution: &Solution) -> String {
     let verification = &solution.verification;
     let failed = verification.failures().count();
     match (verification.passed, verification.checks.len()) {
@@ -127,14 +128,18 @@ fn verdict(solution: &Solution) -> String {
     }
 }
 
-/// One aligned row a check, headed.
-fn table(checks: &[Check]) -> Vec<String> {
+/// The cells of a table of checks, its head first; none without checks.
+pub(crate) fn check_rows(checks: &[Check]) -> Vec<[String; 6]> {
     if checks.is_empty() {
         return Vec::new();
     }
-    let mut rows = vec![["", "check", "worst", "allowed", "margin", "where"].map(str::to_owned)];
-    rows.extend(checks.iter().map(check_cells));
-    aligned(&rows, [false, false, true, true, true, false])
+    let head = ["", "check", "worst", "allowed", "margin", "where"].map(str::to_owned);
+    std::iter::once(head).chain(checks.iter().map(check_cells)).collect()
+}
+
+/// One aligned row a check, headed.
+fn table(checks: &[Check]) -> Vec<String> {
+    aligned(&check_rows(checks), [false, false, true, true, true, false])
 }
 
 fn check_cells(check: &Check) -> [String; 6] {
@@ -149,20 +154,25 @@ fn check_cells(check: &Check) -> [String; 6] {
         true => format!(" (\u{b1} {} is tolerated)", short(scale * check.tolerance)),
         false => String::new(),
     };
-    let time = check.time_s.map(|time_s| format!("{} s", short(time_s)));
-    let place: Vec<String> = check.subject.iter().cloned().chain(time).collect();
     [
         if check.passed { "ok" } else { "FAILED" }.to_owned(),
         check.name.clone(),
         short(value),
         format!("{sign} {}{gap}{unit}", short(limit)),
         short(margin),
-        place.join(" at ") + &tolerated,
+        place(check) + &tolerated,
     ]
 }
 
+/// Where a check is closest to failing: "joint 2 at 12.3 s".
+pub(crate) fn place(check: &Check) -> String {
+    let time = check.time_s.map(|time_s| format!("{} s", short(time_s)));
+    let place: Vec<String> = check.subject.iter().cloned().chain(time).collect();
+    place.join(" at ")
+}
+
 /// The unit that people think in, and how many of it make one of `unit`.
-fn in_degrees(unit: &str) -> (String, f64) {
+pub(crate) fn in_degrees(unit: &str) -> (String, f64) {
     match unit.strip_prefix("rad") {
         Some(rest) => (format!("deg{rest}"), 1f64.to_degrees()),
         None => (unit.to_owned(), 1.0),

@@ -1,0 +1,87 @@
+/** What the program writes into the page: crates/report/src/page/data.rs, field by field. */
+export interface ReportData {
+  name: string;
+  asked: string;
+  description: string | null;
+  system: string;
+  verdict: { passed: boolean; text: string };
+  facts: Fact[];
+  limits: Limit[];
+  notes: string[];
+  checks: string[][];
+  made_by: string;
+  spacecraft: Spacecraft;
+  /** Attitude a slew is to reach, scalar first, body to inertial. */
+  target_attitude: [number, number, number, number] | null;
+  bound_deg_s: number | null;
+  steps: number;
+  /** Every so many nodes of the plan are in the columns, and the last. */
+  stride: number;
+  columns: Record<ColumnName, string>;
+}
+
+export interface Fact {
+  label: string;
+  value: string;
+  note: string;
+}
+
+export interface Limit {
+  name: string;
+  value: string;
+  place: string;
+  /** Part of the limit that is used, 0 to 1. */
+  share: number;
+}
+
+export interface Spacecraft {
+  /** Edges of the box drawn for the base, m, and its attitude in the body frame. */
+  box_m: [number, number, number];
+  box_attitude: [number, number, number, number];
+  keep_out_radius_m: number;
+  clearance_m: number;
+  /** The point of the arm that lies on each joint's axis. */
+  joint_points: number[];
+  has_payload: boolean;
+  joint_limits: JointLimits[];
+  /** The system's, at the start; inertial axes. */
+  center_of_mass_m: [number, number, number];
+  /** Conserved, about the center of mass; inertial axes. */
+  momentum_n_m_s: [number, number, number];
+}
+
+export interface JointLimits {
+  angle_min_deg: number | null;
+  angle_max_deg: number | null;
+  rate_max_deg_s: number;
+  acceleration_max_deg_s2: number;
+}
+
+/** Columns, node by node, each a little-endian float32 array in base64. */
+export type ColumnName =
+  | "time_s"
+  | "position_m"
+  | "attitude"
+  | "angular_rate_rad_s"
+  | "joint_angles_rad"
+  | "joint_rates_rad_s"
+  | "joint_accelerations_rad_s2"
+  | "joint_torques_n_m"
+  | "power_w"
+  | "attitude_error_rad"
+  | "arm_points_m"
+  | "joint_axes"
+  | "arm_momentum_n_m_s"
+  | "body_clearance_m"
+  | "link_clearance_m";
+
+export function readData(): ReportData {
+  const element = document.getElementById("data");
+  return JSON.parse(element?.textContent ?? "null") as ReportData;
+}
+
+export function decodeColumn(base64: string): Float32Array {
+  const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Float32Array.from({ length: bytes.length / 4 }, (_, i) => view.getFloat32(4 * i, true));
+}

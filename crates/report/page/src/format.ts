@@ -1,0 +1,18 @@
+/** A number as people read it: `digits` significant ones and a true minus sign. */
+export function short(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return "\u2013";
+  const size = Math.abs(value);
+  if (size < 1e-9) return "0";
+  const text = size < 1e-3 || size >= 1e5 ? value.toExponential(1) : fixed(value, size, digits);
+  return text.replaceAll("-", "\u2212");
+}
+
+function fixed(value: number, size: number, digits: number): string {
+  const decimals = Math.min(Math.max(digits - 1 - Math.floor(Math.log10(size)), 0), digits);
+  return value.toFixed(decimals);
+}
+
+/** A time on a clock that runs to `duration`, s. */
+export function clock(time: number, duration: number): string {
+  return time.toFixed(duration < 1000 ? 2 : 0);
+}

@@ -1,0 +1,118 @@
+//! The plan as the page reads it: columns of single-precision numbers, node by node.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use righting_maneuver::{CollisionModel, Maneuver, Node, Scenario, Trajectory};
+use righting_multibody::Kinematics;
+use serde::Serialize;
+
+/// More intervals than this are thinned out.
+const MOST_INTERVALS: usize = 1000;
+
+/// A column: little-endian `f32`, all numbers of a node together, in base64. It is a quarter of the
+/// same numbers in decimal, and finer than a pixel.
+type Column = String;
+
+/// What the page shows of each node; a column that the plan has no numbers for is empty.
+///
+/// Names, units and frames are those of `trajectory.csv`; what it does not have:
+/// `attitude_error_rad` is the angle to a slew's target, `arm_points_m` are the origins of frames
+/// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and
+/// clearances are the least of any link from the keep-out sphere and of any two links.
+#[derive(Debug, Serialize)]
+pub(super) struct Columns {
+    time_s: Column,
+    position_m: Column,
+    attitude: Column,
+    angular_rate_rad_s: Column,
+    joint_angles_rad: Column,
+    joint_rates_rad_s: Column,
+    joint_accelerations_rad_s2: Column,
+    joint_torques_n_m: Column,
+    power_w: Column,
+    attitude_error_rad: Column,
+    arm_points_m: Column,
+    joint_axes: Column,
+    arm_momentum_n_m_s: Column,
+    body_clearance_m: Column,
+    link_clearance_m: Column,
+}
+
+/// Of how many nodes one is shown.
+pub(super) fn stride(trajectory: &Trajectory) -> usize {
+    trajectory.steps().div_ceil(MOST_INTERVALS)
+}
+
+impl Columns {
+    /// Computes where everything is at the nodes shown.
+    pub fn new(scenario: &Scenario, trajectory: &Trajectory) -> Self {
+        let steps = trajectory.steps();
+        let mut shown: Vec<usize> = (0..steps).step_by(stride(trajectory)).collect();
+        shown.push(steps);
+        let nodes: Vec<&Node> = shown.iter().map(|&k| &trajectory.nodes()[k]).collect();
+        let model = &scenario.system().model;
+        let postures: Vec<Kinematics<f64>> =
+            nodes.iter().map(|node| model.kinematics(&node.joint_angles_rad)).collect();
+        let held = |control: bool| {
+            let none = vec![f64::NAN; trajectory.joints()];
+            encoded(shown.iter().flat_map(|&k| match trajectory.intervals().get(k) {
+                Some(interval) if control => interval.joint_accelerations_rad_s2.clone(),
+                Some(interval) => interval.joint_torques_n_m.clone(),
+                None => none.clone(),
+            }))
+        };
+        let momentum = |node: &&Node| -> [f64; 3] {
+            model.h_tilde(&node.joint_angles_rad, &node.joint_rates_rad_s).into()
+        };
+        let errors: Vec<f64> = match scenario.maneuver() {
+            Maneuver::Slew(slew) => {
+                nodes.iter().map(|node| node.state().attitude.angle_to(&slew.target)).collect()
+            }
+            Maneuver::Detumble => Vec::new(),
+        };
+        let [body_clearance_m, link_clearance_m] = clearances(scenario, &postures);
+        let points = postures.iter().flat_map(|posture| posture.frames.iter().map(|f| &f.origin));
+        let axes = postures.iter().flat_map(|posture| &posture.joint_axes);
+        Self {
+            time_s: encoded(nodes.iter().map(|node| node.time_s)),
+            position_m: encoded(nodes.iter().flat_map(|node| node.position_m)),
+            attitude: encoded(nodes.iter().flat_map(|node| node.attitude)),
+            angular_rate_rad_s: encoded(nodes.iter().flat_map(|node| node.angular_rate_rad_s)),
+            joint_angles_rad: encoded(nodes.iter().flat_map(|node| node.joint_angles_rad.clone())),
+            joint_rates_rad_s: encoded(
+                nodes.iter().flat_map(|node| node.joint_rates_rad_s.clone()),
+            ),
+            joint_accelerations_rad_s2: held(true),
+            joint_torques_n_m: held(false),
+            power_w: encoded(nodes.iter().map(|node| node.power_w)),
+            attitude_error_rad: encoded(errors),
+            arm_points_m: encoded(points.flat_map(|point| [point.x, point.y, point.z])),
+            joint_axes: encoded(axes.flat_map(|axis| [axis.x, axis.y, axis.z])),
+            arm_momentum_n_m_s: encoded(nodes.iter().flat_map(momentum)),
+            body_clearance_m,
+            link_clearance_m,
+        }
+    }
+}
+
+/// The least clearance from the keep-out sphere and between links; empty where nothing can collide.
+fn clearances(scenario: &Scenario, postures: &[Kinematics<f64>]) -> [Column; 2] {
+    let collision: &CollisionModel = scenario.collision();
+    let radius = scenario.system().keep_out_radius_m;
+    let bodies = collision.body_links.len();
+    let (mut body, mut links) = (Vec::new(), Vec::new());
+    for posture in postures {
+        let distances: Vec<f64> = collision.clearances(posture).map(|c| c.distance_m).collect();
+        let (to_body, between) = distances.split_at(bodies);
+        body.extend(to_body.iter().copied().reduce(f64::min).map(|distance| distance - radius));
+        links.extend(between.iter().copied().reduce(f64::min));
+    }
+    [encoded(body), encoded(links)]
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the page draws in single precision")]
+fn encoded(values: impl IntoIterator<Item = f64>) -> Column {
+    let bytes: Vec<u8> =
+        values.into_iter().flat_map(|value| (value as f32).to_le_bytes()).collect();
+    STANDARD.encode(bytes)
+}

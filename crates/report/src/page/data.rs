@@ -1,0 +1,149 @@
+//! Everything the page says, in the shape that `page/src/data.ts` mirrors.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use righting_maneuver::{Maneuver, Scenario, Solution, SystemDescription, Trajectory};
+use righting_multibody::DhConvention;
+use serde::Serialize;
+
+use super::columns::{Columns, stride};
+use crate::asked;
+use crate::numbers::{Fact, UsedLimit, facts, used_limits};
+use crate::summary::{check_rows, verdict};
+
+#[derive(Debug, Serialize)]
+pub(super) struct PageData<'a> {
+    name: &'a str,
+    asked: String,
+    description: Option<&'a str>,
+    system: &'a str,
+    verdict: Verdict,
+    facts: Vec<Fact>,
+    limits: Vec<UsedLimit>,
+    notes: &'a [String],
+    /// Rows of the table of checks, its head first.
+    checks: Vec<[String; 6]>,
+    made_by: String,
+    spacecraft: Spacecraft,
+    target_attitude: Option<[f64; 4]>,
+    bound_deg_s: Option<f64>,
+    steps: usize,
+    stride: usize,
+    columns: Columns,
+}
+
+#[derive(Debug, Serialize)]
+struct Verdict {
+    passed: bool,
+    text: String,
+}
+
+/// What is drawn and does not change.
+#[derive(Debug, Serialize)]
+struct Spacecraft {
+    /// Edges of the uniform box with the base's mass and inertia; a cube is drawn as itself.
+    box_m: [f64; 3],
+    /// Its attitude in the body frame, scalar first.
+    box_attitude: [f64; 4],
+    keep_out_radius_m: f64,
+    clearance_m: f64,
+    /// Which of the arm's points lies on each joint's axis.
+    joint_points: Vec<usize>,
+    has_payload: bool,
+    joint_limits: Vec<JointLimits>,
+    /// The system's, at the start; inertial axes.
+    center_of_mass_m: [f64; 3],
+    /// Conserved, about the center of mass; inertial axes.
+    momentum_n_m_s: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct JointLimits {
+    angle_min_deg: Option<f64>,
+    angle_max_deg: Option<f64>,
+    rate_max_deg_s: f64,
+    acceleration_max_deg_s2: f64,
+}
+
+impl<'a> PageData<'a> {
+    pub fn new(scenario: &'a Scenario, solution: &'a Solution, trajectory: &Trajectory) -> Self {
+        let versions = &solution.versions;
+        let target_attitude = match scenario.maneuver() {
+            Maneuver::Slew(slew) => Some(slew.target.to_array()),
+            Maneuver::Detumble => None,
+        };
+        Self {
+            name: scenario.name(),
+            asked: asked::phrase(&solution.scenario),
+            description: solution.scenario.description.as_deref(),
+            system: &scenario.system().name,
+            verdict: Verdict { passed: solution.verification.passed, text: verdict(solution) },
+            facts: facts(solution, trajectory),
+            limits: used_limits(solution),
+            notes: &solution.notes,
+            checks: check_rows(&solution.verification.checks),
+            made_by: format!(
+                "Righting {}, Ipopt {}, linear solver {}.",
+                versions.righting, versions.ipopt, versions.linear_solver
+            ),
+            spacecraft: Spacecraft::new(scenario, trajectory),
+            target_attitude,
+            bound_deg_s: solution.bound_deg_s,
+            steps: trajectory.steps(),
+            stride: stride(trajectory),
+            columns: Columns::new(scenario, trajectory),
+        }
+    }
+}
+
+impl Spacecraft {
+    fn new(scenario: &Scenario, trajectory: &Trajectory) -> Self {
+        let system = scenario.system();
+        let model = &system.model;
+        let start = trajectory.start().state();
+        let (box_m, box_attitude) = equivalent_box(system);
+        let joints = 0..system.joint_count();
+        Self {
+            box_m,
+            box_attitude,
+            keep_out_radius_m: system.keep_out_radius_m,
+            clearance_m: scenario.collision().clearance_m,
+            joint_points: match model.convention() {
+                DhConvention::Standard => joints.collect(),
+                DhConvention::Modified => joints.map(|joint| joint + 1).collect(),
+            },
+            has_payload: model.payload().is_some(),
+            joint_limits: system.joint_limits.iter().map(JointLimits::of).collect(),
+            center_of_mass_m: model.inertial_center_of_mass(&start).into(),
+            momentum_n_m_s: model.inertial_angular_momentum(&start).into(),
+        }
+    }
+}
+
+impl JointLimits {
+    fn of(limits: &righting_maneuver::JointLimits) -> Self {
+        let finite_deg = |angle_rad: f64| angle_rad.is_finite().then(|| angle_rad.to_degrees());
+        Self {
+            angle_min_deg: finite_deg(limits.angle_min_rad),
+            angle_max_deg: finite_deg(limits.angle_max_rad),
+            rate_max_deg_s: limits.rate_max_rad_s.to_degrees(),
+            acceleration_max_deg_s2: limits.acceleration_max_rad_s2.to_degrees(),
+        }
+    }
+}
+
+/// Edges and attitude of the uniform box with the base's mass and inertia: with principal moments
+/// J, an edge a₁ obeys a₁² = 6 (J₂ + J₃ − J₁)/m. None is drawn thinner than a fiftieth of the longest.
+fn equivalent_box(system: &SystemDescription) -> ([f64; 3], [f64; 4]) {
+    let base = system.model.base();
+    let principal = base.inertia_kg_m2.symmetric_eigen();
+    let moments = principal.eigenvalues;
+    let edges =
+        moments.map(|own| (6.0 * (moments.sum() - 2.0 * own) / base.mass_kg).max(0.0).sqrt());
+    let edges = edges.map(|edge| edge.max(0.02 * edges.max()));
+    let mut axes: Matrix3<f64> = principal.eigenvectors;
+    if axes.determinant() < 0.0 {
+        axes = -axes;
+    }
+    let attitude = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    (edges.into(), [attitude.w, attitude.i, attitude.j, attitude.k])
+}

@@ -1,0 +1,151 @@
+//! The interactive page, in a browser.
+
+use righting_maneuver::{Node, Scenario, verify_directory};
+use serde_json::Value;
+
+use crate::browser::Browser;
+use crate::program::{files_in, folder_with, righting, small_detumble, small_slew, solve};
+use crate::verify::{add, tamper};
+
+const DESKTOP: [u32; 2] = [900, 600];
+const PHONE: [u32; 2] = [390, 844];
+/// The page keeps single precision.
+const ROUNDING: f64 = 2e-6;
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let values = value.as_array().unwrap_or_else(|| panic!("no list of numbers: {value}"));
+    values.iter().map(|number| number.as_f64().expect("a number")).collect()
+}
+
+#[track_caller]
+fn assert_close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found - expected).abs() <= ROUNDING * expected.abs().max(1.0),
+            "{found} {expected}"
+        );
+    }
+}
+
+/// The page draws what a row of trajectory.csv says, base and arm.
+#[track_caller]
+fn assert_shows(page: &mut Browser, node: &Node, scenario: &Scenario) {
+    let state = page.value("righting.state()");
+    assert_close(&[state["time_s"].as_f64().expect("a time")], &[node.time_s]);
+    assert_close(&numbers(&state["joint_angles_rad"]), &node.joint_angles_rad);
+    assert_close(&numbers(&state["joint_rates_rad_s"]), &node.joint_rates_rad_s);
+    assert_close(&numbers(&state["angular_rate_rad_s"]), &node.angular_rate_rad_s);
+    let drawn = &state["drawn"];
+    assert_close(&numbers(&drawn["position_m"]), &node.position_m);
+    assert_close(&numbers(&drawn["attitude_wxyz"]), &node.attitude);
+    let arm = drawn["arm_m"].as_array().expect("points");
+    let posture = scenario.system().model.kinematics(&node.joint_angles_rad);
+    assert_eq!(arm.len(), posture.frames.len());
+    for (found, frame) in arm.iter().zip(&posture.frames) {
+        let base = node.state();
+        let expected = base.position + base.attitude.to_inertial(&frame.origin);
+        assert_close(&numbers(found), expected.as_slice());
+    }
+}
+
+#[test]
+fn the_page_plays_and_scrubs_what_the_table_says() {
+    for (name, scenario) in [("slew", small_slew()), ("detumble", small_detumble())] {
+        let folder = folder_with(&scenario);
+        assert_eq!(solve(folder.path()).code, 0);
+        let out = folder.path().join("out");
+        let mut page = Browser::open(&out.join("report.html"), DESKTOP);
+        let plan = verify_directory(&out).expect("a plan");
+        let nodes = plan.trajectory.nodes();
+
+        assert_eq!(page.value("document.title"), "small");
+        assert_eq!(page.value("document.querySelector('#verdict').textContent"), "Verified");
+        assert_shows(&mut page, &nodes[0], &plan.scenario);
+        for k in [1, 17, nodes.len() - 1, 20] {
+            page.value(&format!(
+                "{{ const slider = document.querySelector('#time'); slider.value = {:e}; \
+                 slider.dispatchEvent(new Event('input')); }}",
+                nodes[k].time_s
+            ));
+            assert_shows(&mut page, &nodes[k], &plan.scenario);
+        }
+        page.click("#forward", 0.5);
+        assert_shows(&mut page, &nodes[21], &plan.scenario);
+        // Off the middle first: pressing the slider's knob leaves it where it is.
+        page.value("righting.seek(0)");
+        page.click("#time", 0.5);
+        let halfway = page.value("righting.state().time_s").as_f64().expect("a time");
+        assert!((halfway - 10.0).abs() < 0.3, "{halfway}");
+        page.click(".u-over", 0.25);
+        let quarter = page.value("righting.state().time_s").as_f64().expect("a time");
+        assert!((quarter - 5.0).abs() < 0.2, "{quarter}");
+
+        page.value("righting.seek(0)");
+        let still = page.picture("#view");
+        page.click("#play", 0.5);
+        page.wait_until("righting.state().time_s > 1");
+        page.click("#play", 0.5);
+        let state = page.value("righting.state()");
+        assert_eq!(state["playing"], false);
+        let tip = |arm: &Value| numbers(&arm[arm.as_array().map_or(0, |points| points.len() - 1)]);
+        let posture = plan.scenario.system().model.kinematics(&nodes[0].joint_angles_rad);
+        let start = posture.frames.last().expect("a tip").origin;
+        let moved = tip(&state["drawn"]["arm_m"]);
+        let way: f64 = moved.iter().zip(&start).map(|(a, b)| (a - b).abs()).sum();
+        assert!(way > 1e-3, "{name}: {way}");
+        assert_ne!(page.picture("#view"), still, "{name}: the arm moved unseen");
+
+        let inertial = page.picture("#view");
+        page.click("#frame-body", 0.5);
+        assert_eq!(page.value("righting.state().frame"), "body");
+        assert_ne!(page.picture("#view"), inertial, "{name}: frames look the same");
+        assert_eq!(page.complaints(), [] as [String; 0], "{name}");
+    }
+}
+
+#[test]
+fn the_page_works_on_a_phone() {
+    let folder = folder_with(&small_slew());
+    assert_eq!(solve(folder.path()).code, 0);
+    let mut page = Browser::open(&folder.path().join("out/report.html"), PHONE);
+    assert_eq!(page.value("document.documentElement.scrollWidth <= innerWidth"), true);
+    let before = page.picture("#view");
+    page.swipe("#view", 80.0);
+    assert_ne!(page.picture("#view"), before, "touch does not turn the view");
+    assert_eq!(page.value("righting.state().time_s"), 0.0);
+    page.swipe("#time", 80.0);
+    assert!(page.value("righting.state().time_s").as_f64().is_some_and(|time| time > 5.0));
+    assert_eq!(page.complaints(), [] as [String; 0]);
+}
+
+#[test]
+fn the_page_is_made_again_from_a_folder_and_says_what_is_wrong_in_it() {
+    let folder = folder_with(&small_slew());
+    let run = righting(
+        folder.path(),
+        &["solve", "scenario.json", "--out", "out", "--no-report", "--json"],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(run.json()["files"]["report"], Value::Null);
+    let out = folder.path().join("out");
+    assert!(!files_in(&out).contains(&"report.html".to_owned()));
+
+    let run = righting(folder.path(), &["report", "out"]);
+    assert_eq!((run.code, run.stdout.as_str()), (0, "out/report.html\n"), "{}", run.stderr);
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.contains("\"passed\":true"));
+    assert!(page.len() < 1_000_000, "{}", page.len());
+    let json = righting(folder.path(), &["report", "out", "--json"]).json();
+    assert_eq!(json["report"], "out/report.html");
+
+    tamper(folder.path(), 20, add("q2_rad", 0.01));
+    let run = righting(folder.path(), &["report", "out"]);
+    assert_eq!(run.code, 4, "{}", run.stderr);
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.contains("\"passed\":false") && page.contains("NOT VERIFIED"));
+
+    std::fs::remove_file(out.join("trajectory.csv")).expect("removable");
+    righting(folder.path(), &["report", "out"]).assert_refused("trajectory.csv: cannot be read");
+    righting(folder.path(), &["report", "absent"]).assert_refused("no such file");
+}
