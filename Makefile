@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo test test-slurm bench bench-all page fmt lint setup
+.PHONY: demo test test-slurm bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -25,6 +25,11 @@ bench-all:
 # The bundle of the interactive page, from its sources; needs Node, which the build does not.
 page:
 	cd crates/report/page && npm ci --silent && npm run --silent check && npm run --silent build
+
+# Half an hour on two cores: what the automatic guess is worth, as docs/starts.md.
+starts: setup
+	cargo build --release --locked
+	scripts/starts.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
 fmt:
 	cargo fmt --all

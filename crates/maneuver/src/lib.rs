@@ -62,6 +62,7 @@ pub mod schema;
 mod search;
 pub mod solution;
 mod starts;
+mod symmetry;
 pub mod system_description;
 pub mod trajectory;
 pub mod trajectory_csv;

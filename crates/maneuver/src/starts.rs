@@ -1,17 +1,22 @@
 //! Trajectories to start the optimizer from.
 
+mod loops;
+
 use std::f64::consts::PI;
 
-use righting_multibody::State;
+use righting_multibody::{Quaternion, State};
 use righting_ocp::Guess;
 
 use crate::formulation::Coordinates;
 use crate::halton::Halton;
-use crate::scenario::Scenario;
+use crate::scenario::{Maneuver, Scenario};
+use crate::symmetry::{Mirror, reversed};
 use crate::trajectory::Trajectory;
 
 /// How far a swing takes a joint without limits, rad.
 const FREE_SWING_RAD: f64 = 2.0;
+/// So much nearer to the target an image of an earlier plan must end to be taken in its place, rad.
+const NEARER_RAD: f64 = 1e-3;
 /// Share of the way to a joint's limit that a swing may take.
 const LIMIT_SHARE: f64 = 0.8;
 
@@ -76,9 +81,19 @@ impl Swings<'_> {
         guess
     }
 
-    /// The motion of an earlier plan of the same arm, stretched to this horizon.
+    /// The motion of an earlier plan of the same arm, or its image where that ends nearer to the
+    /// target, stretched to this horizon and shifted to this maneuver's first posture.
     pub(crate) fn along(&self, plan: &Trajectory) -> Guess {
         let mut guess = self.constant();
+        let image = self.nearest_image(plan);
+        let plan = image.as_ref().unwrap_or(plan);
+        let shift: Vec<f64> = self
+            .coordinates
+            .joint_angles(self.initial)
+            .iter()
+            .zip(&plan.start().joint_angles_rad)
+            .map(|(here, there)| here - there)
+            .collect();
         let old_steps = plan.steps();
         let faster = plan.end().time_s / self.scenario.horizon().duration_s;
         for node in 1..=self.steps {
@@ -90,6 +105,7 @@ impl Swings<'_> {
                 a.iter().zip(&b).map(|(a, b)| (1.0 - share) * a + share * b).collect();
             let mut state = State::from_slice(&blend).expect("a state of the same arm");
             state.attitude = state.attitude.normalized();
+            state.joint_angles.iter_mut().zip(&shift).for_each(|(angle, shift)| *angle += shift);
             state.joint_rates.iter_mut().for_each(|rate| *rate *= faster);
             let row = self.coordinates.of_free_floating_state(&state);
             guess.states.row_mut(node).copy_from_slice(&row);
@@ -104,6 +120,24 @@ impl Swings<'_> {
             }
         }
         guess
+    }
+
+    /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
+    fn nearest_image(&self, plan: &Trajectory) -> Option<Trajectory> {
+        let Maneuver::Slew(slew) = self.scenario.maneuver() else { return None };
+        let wanted = self.scenario.initial().attitude.conjugate().product(&slew.target);
+        let miss = |motion: &Trajectory| {
+            let [start, end] = [motion.start(), motion.end()]
+                .map(|node| Quaternion::from_array(node.attitude).normalized());
+            start.conjugate().product(&end).angle_to(&wanted)
+        };
+        let backwards = reversed(plan);
+        let mirrors = Mirror::all(self.scenario.system());
+        let seen = mirrors.iter().flat_map(|mirror| [mirror.image(plan), mirror.image(&backwards)]);
+        let mut images: Vec<Trajectory> = seen.collect();
+        images.insert(0, backwards);
+        images.retain(|image| miss(image) < miss(plan) - NEARER_RAD);
+        images.into_iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
     }
 
     fn swing(&self, reach: &[f64], back: &[f64]) -> Guess {

@@ -115,6 +115,33 @@ fn a_plan_of_another_duration_and_grid_is_a_start_too() {
 }
 
 #[test]
+fn mirrored_starts_give_mirrored_plans() {
+    // The arm bends in the plane normal to y: in that mirror its first joint turns the other way and
+    // an axis of rotation, an axial vector, keeps its y alone.
+    let slew = |axis: [f64; 3]| {
+        varied(&shipped("slew_4dof"), |file| {
+            file.maneuver.axis = Some(axis);
+            file.maneuver.angle_deg = Some(30.0);
+            file.horizon.steps = 120.0;
+        })
+    };
+    let plan = planned(&slew([0.5, 0.6, 0.62]));
+    let mirrored = varied(&slew([-0.5, 0.6, -0.62]), |file| {
+        file.solver.guess = Some(Guess::Named(NamedGuess::Constant));
+    });
+    let image = plan_from(&mirrored, &plan.trajectory, &mut |_| Control::Continue).unwrap();
+    let (from_constant, from_image) = coarse_rungs(&image);
+    assert!(from_image.iterations < from_constant.iterations, "{:?}", image.rungs);
+    assert!((image.objective / plan.objective - 1.0).abs() < 1e-6, "{}", image.objective);
+    for (node, other) in plan.trajectory.nodes().iter().zip(image.trajectory.nodes()) {
+        let angles = node.joint_angles_rad.iter().zip(&other.joint_angles_rad);
+        for ((angle, other), sign) in angles.zip([-1.0, 1.0, 1.0, 1.0]) {
+            assert!((sign * angle - other).abs() < 1e-4, "{node:?} {other:?}");
+        }
+    }
+}
+
+#[test]
 fn a_plan_of_another_arm_is_refused() {
     let four = varied(&shipped("slew_4dof"), |file| file.horizon.steps = 20.0);
     let earlier = planned(&four);

@@ -41,9 +41,9 @@ const AUTO_SWINGS: usize = 4;
 
 /// Of how many swings a detumble's automatic guess tries those that slow the base most.
 const SCREENED_SWINGS: usize = 32;
-/// From here on a slew has so many optima that more starts pay.
+/// From here on a slew has so many optima that more starts pay: loops of the joints.
 const LARGE_SLEW_RAD: f64 = 0.5;
-/// How many more: these are rolled out.
+/// Where no loop turns the base about the axis, so many more swings, rolled out.
 const LARGE_SLEW_SWINGS: usize = 5;
 
 /// The solves that lead to a plan.
@@ -244,8 +244,12 @@ fn guesses(scenario: &Scenario, swings: &Swings<'_>) -> Vec<Guess> {
         Maneuver::Slew(slew) if is_auto => {
             guesses.extend(swings.from(0).take(count));
             if slew.target.angle_to(&scenario.initial().attitude) > LARGE_SLEW_RAD {
-                let more = swings.from(count as u64).take(LARGE_SLEW_SWINGS);
-                guesses.extend(more.map(|swing| swings.rolled_out(swing)));
+                let loops = swings.loops(&slew.target);
+                if loops.is_empty() {
+                    let more = swings.from(count as u64).take(LARGE_SLEW_SWINGS);
+                    guesses.extend(more.map(|swing| swings.rolled_out(swing)));
+                }
+                guesses.extend(loops);
             }
         }
         _ => guesses.extend(swings.from(first_swing(scenario)).take(count)),
