@@ -40,6 +40,8 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
         Ok::<(), Failure>(())
     };
     write("results.csv", &|writer| table.write_csv(writer))?;
+    #[cfg(feature = "parquet")]
+    write("results.parquet", &|writer| table.write_parquet(writer))?;
     write("summary.json", &|writer| {
         serde_json::to_writer_pretty(&mut *writer, &summary)?;
         writeln!(writer)

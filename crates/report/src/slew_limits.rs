@@ -8,6 +8,8 @@ use crate::number::short;
 use crate::style;
 use crate::svg::Stroke;
 
+/// More values than these are averaged over instead.
+const MOST_CURVES: usize = COLORS.len();
 /// Colours of the curves.
 const COLORS: [&str; 5] = [style::MAGNITUDE, style::Z, style::Y, style::X, style::W];
 
@@ -25,7 +27,8 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
         .filter(varying)
         .collect();
     let (&(x_at, x_column), rest) = numbers.split_last()?;
-    let series = rest.last().copied();
+    let few = |&(at, _): &(usize, _)| distinct(slews, at).len() <= MOST_CURVES;
+    let series = rest.last().copied().filter(few);
     let xs = Range::of(distinct(slews, x_at))?.padded(1e-9);
     let highest = slews.limits.iter().map(|limit| limit.all_up_to_deg).fold(1.0, f64::max);
     let labels = Labels {

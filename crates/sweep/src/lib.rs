@@ -44,6 +44,8 @@ pub mod file;
 mod folder;
 mod journal;
 mod outcome;
+#[cfg(feature = "parquet")]
+mod parquet_file;
 mod pool;
 mod process;
 mod record;
