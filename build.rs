@@ -13,8 +13,11 @@ fn main() {
     let git = Path::new(&root).join(".git");
     // A .git further up would describe some other repository.
     let revision = if git.exists() {
-        for watched in [git.join("HEAD"), git.join("index")] {
-            if watched.exists() {
+        // In a linked worktree they lie elsewhere.
+        for name in ["HEAD", "index"] {
+            let place = first_line("git", &["-C", &root, "rev-parse", "--git-path", name]);
+            let watched = Path::new(&root).join(place);
+            if watched.is_file() {
                 println!("cargo::rerun-if-changed={}", watched.display());
             }
         }
