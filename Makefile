@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo test test-slurm bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-slurm bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -15,6 +15,12 @@ test:
 test-slurm: setup
 	cargo build --release --locked
 	scripts/test-slurm.sh
+
+# The paper's figures and tables, with its numbers beside ours: docs/paper.md.
+paper: setup
+	cargo build --release --locked
+	cargo run --release --locked --quiet -- figures --out out/paper
+	cargo run --release --locked --quiet -- sweep scenarios/sweeps/reach_2dof.json --resume --out out/paper/fig6_reach
 
 bench:
 	scripts/bench.sh

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use righting_maneuver::envelope::{Sizing, read_system_or_scenario};
-use righting_maneuver::hull::Mesh;
-use righting_maneuver::wheels::{Radii, Wheel};
-use righting_maneuver::{Envelope, WheelArray, envelopes};
+use righting_maneuver::wheels::{Radii, Wheel, Zonotope};
+use righting_maneuver::{Envelope, Envelopes, WheelArray, envelopes};
 use righting_report::{EnvelopeOutlines, envelope_svg, write_whole};
 use serde::Serialize;
 
@@ -93,16 +92,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let json = output::to_json(&printed)?;
     let [momentum_mesh, torque_mesh] = [zonotopes[0].mesh(), zonotopes[1].mesh()];
-    let outlines = |envelope: &Envelope, wheels: &Mesh| EnvelopeOutlines {
-        arm: envelope.extreme_points.clone(),
-        sampled: envelope.sampled_hull.vertices.clone(),
-        wheels: wheels.vertices.clone(),
-    };
-    let figure = envelope_svg(
-        &system.name,
-        &outlines(&found.momentum, &momentum_mesh),
-        &outlines(&found.torque, &torque_mesh),
-    );
     let meshes = [
         ("momentum_arm.obj", &found.momentum.hull),
         ("momentum_sampled.obj", &found.momentum.sampled_hull),
@@ -114,6 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     for (name, mesh) in meshes {
         write_whole(folder.path(), name, mesh.to_obj().as_bytes())?;
     }
+    let figure = figure(&system.name, &found, &wheels);
     write_whole(folder.path(), "envelope.svg", figure.as_bytes())?;
     write_whole(folder.path(), "envelope.json", json.as_bytes())?;
     if arguments.json {
@@ -121,6 +111,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         output::print(&describe(&printed, [momentum, torque]))
     }
+}
+
+/// The figure of both envelopes.
+pub fn figure(name: &str, found: &Envelopes, wheels: &WheelArray) -> String {
+    let outlines = |envelope: &Envelope, wheels: &Zonotope| EnvelopeOutlines {
+        arm: envelope.extreme_points.clone(),
+        sampled: envelope.sampled_hull.vertices.clone(),
+        wheels: wheels.vertices(),
+    };
+    let momentum = outlines(&found.momentum, &wheels.momentum());
+    envelope_svg(name, &momentum, &outlines(&found.torque, &wheels.torque()))
 }
 
 fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
@@ -144,8 +145,11 @@ fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
     row("volume, true, at least", h.true_volume, t.true_volume);
     row("volume, wheels", printed.wheels.momentum_volume, printed.wheels.torque_volume);
     text.push_str("To match in every direction, times\n");
-    let factor =
-        |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.3}"));
+    let factor = |value: Option<f64>| match value {
+        None => "none".to_owned(),
+        Some(value) if value > 0.0 && value < 0.01 => format!("{value:.2e}"),
+        Some(value) => format!("{value:.3}"),
+    };
     let mut sizes = |name: &str, h: Option<f64>, t: Option<f64>| {
         writeln!(text, "{name:<34}{:>14}{:>14}", factor(h), factor(t))
             .expect("a string takes all that is written");

@@ -8,7 +8,9 @@ mod blas;
 mod build;
 mod doctor;
 mod envelope;
+mod export;
 mod failure;
+mod figures;
 mod interrupt;
 mod output;
 mod output_folder;
@@ -55,6 +57,8 @@ enum Command {
     /// Evaluate the cases of a sweep that a parent process sends.
     #[command(hide = true)]
     SweepWorker,
+    Figures(figures::Arguments),
+    Export(export::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -72,6 +76,8 @@ fn main() -> ExitCode {
         Command::Power(arguments) => power::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::SweepWorker => sweep::work(),
+        Command::Figures(arguments) => figures::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
@@ -91,7 +97,7 @@ impl Command {
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
-            Self::SweepWorker | Self::Schema(_) => false,
+            Self::Figures(_) | Self::Export(_) | Self::SweepWorker | Self::Schema(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }
     }

@@ -30,6 +30,8 @@ pub struct ResultFiles {
     /// The interactive page.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub report: Option<PathBuf>,
+    /// All figures, in the order a reader wants them.
+    pub figures: Vec<PathBuf>,
 }
 
 /// The figure of the base.
@@ -38,29 +40,67 @@ pub const ATTITUDE_FILE: &str = "attitude.svg";
 pub const JOINTS_FILE: &str = "joints.svg";
 /// The interactive page.
 pub const REPORT_FILE: &str = "report.html";
+/// The figure of the clearances.
+pub const CLEARANCES_FILE: &str = "clearances.svg";
+/// The figure of the momentum's conservation.
+pub const MOMENTUM_FILE: &str = "momentum.svg";
+/// The figure of the optimizer's way.
+pub const CONVERGENCE_FILE: &str = "convergence.svg";
+/// The figure of the nonlinear program's structure.
+pub const SPARSITY_FILE: &str = "sparsity.svg";
 /// What the plan's motion costs.
 pub const POWER_FILE: &str = "power.json";
 /// The figure of it.
 pub const POWER_FIGURE_FILE: &str = "power.svg";
 
+/// The plan as an Attitude Ephemeris Message.
+pub const AEM_FILE: &str = "attitude.aem";
+/// The plan as a NumPy archive.
+pub const NPZ_FILE: &str = "trajectory.npz";
+
 /// Everything that belongs to a plan.
-const ALL: [&str; 7] = [
+const ALL: [&str; 13] = [
     TRAJECTORY_FILE,
     SOLUTION_FILE,
     ATTITUDE_FILE,
     JOINTS_FILE,
     REPORT_FILE,
+    CLEARANCES_FILE,
+    MOMENTUM_FILE,
+    CONVERGENCE_FILE,
+    SPARSITY_FILE,
     POWER_FILE,
     POWER_FIGURE_FILE,
+    AEM_FILE,
+    NPZ_FILE,
 ];
 
 impl ResultFiles {
+    /// Of a plan with its figures and its page.
+    pub fn of_plan(folder: &OutputFolder, figures: Vec<PathBuf>, report: Option<PathBuf>) -> Self {
+        let trajectory = Some(folder.path().join(TRAJECTORY_FILE));
+        let drawn = |name| figures.iter().find(|file| file.ends_with(name)).cloned();
+        let (attitude, joints) = (drawn(ATTITUDE_FILE), drawn(JOINTS_FILE));
+        Self { trajectory, attitude, joints, figures, report, ..Self::without_plan(folder) }
+    }
+
+    /// Of a solve that found none.
+    pub fn without_plan(folder: &OutputFolder) -> Self {
+        let solution = folder.path().join(SOLUTION_FILE);
+        Self {
+            trajectory: None,
+            solution,
+            attitude: None,
+            joints: None,
+            report: None,
+            figures: Vec::new(),
+        }
+    }
+
     /// Those that there are, in the order they are listed to a reader.
     pub fn paths(&self) -> Vec<PathBuf> {
-        let Self { trajectory, solution, attitude, joints, report } = self;
-        let figures = [attitude, joints, report].map(Option::as_ref);
-        let files = [trajectory.as_ref(), Some(solution)].into_iter().chain(figures);
-        files.flatten().cloned().collect()
+        let Self { trajectory, solution, figures, report, .. } = self;
+        trajectory.iter().chain([solution]).chain(figures).chain(report).cloned().collect()
     }
 }
 

@@ -8,15 +8,16 @@ use righting_maneuver::Scenario;
 use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_maneuver::scenario::MAX_STARTS;
 use righting_ocp::Control;
-use righting_report::{reach_summary, reach_svg, report_html, write_whole};
+use righting_report::{reach_summary, reach_svg, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::figures::FigureSet;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
-use crate::solve::{Times, assemble, write};
+use crate::solve::{Shown, Times, assemble, write};
 
 const JSON_FILE: &str = "reach.json";
 const FIGURE_FILE: &str = "reach.svg";
@@ -236,10 +237,10 @@ fn keep(
         let times = Times { load, verify: *verify };
         let mut solution = assemble(scenario, plan, verification.clone(), times);
         let plan_folder = OutputFolder::open(&plan_folder)?;
-        let page = report_html(scenario, &solution, &plan.trajectory);
-        let plan_files =
-            write(&plan_folder, &mut solution, &plan.trajectory, Some(&page), started)?;
-        files.extend(plan_files.paths());
+        let shown = Shown { figures: FigureSet::Usual, page: true };
+        let trajectory = &plan.trajectory;
+        let written = write(&plan_folder, shown, scenario, &mut solution, trajectory, started)?;
+        files.extend(written.paths());
     } else if plan_folder.is_dir() {
         OutputFolder::open(&plan_folder)?.remove_earlier_plan()?;
     }

@@ -6,18 +6,19 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use righting_maneuver::detumble::rate_bound_rad_s;
 use righting_maneuver::solution::SCHEMA;
-use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
+use righting_maneuver::verifier::TRAJECTORY_FILE;
 use righting_maneuver::{
     IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
-use righting_report::{attitude_svg, joints_svg, report_html, summary, write_whole};
+use righting_report::{report_html, summary, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::figures::{FigureSet, draw};
 use crate::interrupt::Interrupt;
-use crate::output_folder::{ATTITUDE_FILE, JOINTS_FILE, OutputFolder, REPORT_FILE, ResultFiles};
+use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
 use crate::{build, output};
 
@@ -26,8 +27,7 @@ use crate::{build, output};
 pub struct Arguments {
     /// The scenario, a JSON file.
     scenario: PathBuf,
-    /// The folder for trajectory.csv, solution.json, attitude.svg, joints.svg and report.html; made
-    /// if missing.
+    /// The folder for trajectory.csv, solution.json, the figures and report.html; made if missing.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// An earlier result folder of the same arm (another angle, axis, duration, grid or mass) to
@@ -41,6 +41,9 @@ pub struct Arguments {
     /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
     #[arg(long)]
     no_report: bool,
+    /// The figures to draw; `righting figures DIR` draws all of them later.
+    #[arg(long, value_enum, value_name = "SET", default_value = "usual")]
+    figures: FigureSet,
     /// Print the contents of solution.json and the files' paths as one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -86,17 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     plan.notes.splice(..0, note);
     progress.show_stage("verifying");
-    let checking = Instant::now();
-    let verification = match plan.status.is_acceptable() {
-        true => verify(&scenario, &plan.trajectory),
-        false => Verification::default(),
-    };
-    let verify = checking.elapsed();
-    let times = Times { load, verify };
-    let mut solution = assemble(&scenario, &plan, verification, times);
-    let page = (!arguments.no_report && plan.status.is_acceptable())
-        .then(|| report_html(&scenario, &solution, &plan.trajectory));
-    let files = write(&folder, &mut solution, &plan.trajectory, page.as_deref(), started)?;
+    let mut solution = checked(&scenario, &plan, load);
+    let shown = Shown { figures: arguments.figures, page: !arguments.no_report };
+    let files = write(&folder, shown, &scenario, &mut solution, &plan.trajectory, started)?;
     drop(progress);
 
     if arguments.json {
@@ -140,6 +135,50 @@ fn conclude(solution: &Solution) -> Result<(), Failure> {
         return Err(Failure::NoPlan { status: solution.status });
     }
     Failure::of_verification(solution).map_or(Ok(()), Err)
+}
+
+/// What is written beside a plan.
+#[derive(Clone, Copy)]
+pub struct Shown {
+    /// The figures.
+    pub figures: FigureSet,
+    /// Whether the interactive page.
+    pub page: bool,
+}
+
+/// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
+/// that where it is, the rest is too.
+pub fn write(
+    folder: &OutputFolder,
+    shown: Shown,
+    scenario: &Scenario,
+    solution: &mut Solution,
+    trajectory: &Trajectory,
+    started: Instant,
+) -> Result<ResultFiles, Failure> {
+    folder.remove_earlier_plan()?;
+    let mut files = ResultFiles::without_plan(folder);
+    if solution.status.is_acceptable() {
+        trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE))?;
+        let figures = draw(folder.path(), shown.figures, scenario, solution, trajectory)?;
+        let page = shown.page.then(|| report_html(scenario, solution, trajectory));
+        let page = page.map(|page| write_whole(folder.path(), REPORT_FILE, page.as_bytes()));
+        files = ResultFiles::of_plan(folder, figures, page.transpose()?);
+    }
+    solution.timing_s.total = started.elapsed().as_secs_f64();
+    solution.write_json(&files.solution)?;
+    Ok(files)
+}
+
+/// The solution that a plan amounts to, verified where there is something to verify.
+pub fn checked(scenario: &Scenario, plan: &Plan, load: Duration) -> Solution {
+    let checking = Instant::now();
+    let verification = match plan.status.is_acceptable() {
+        true => verify(scenario, &plan.trajectory),
+        false => Verification::default(),
+    };
+    let times = Times { load, verify: checking.elapsed() };
+    assemble(scenario, plan, verification, times)
 }
 
 /// What this command timed itself.
@@ -199,35 +238,4 @@ fn versions(used: UsedLinearSolver) -> Versions {
             UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),
         },
     }
-}
-
-/// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
-/// that where it is, the rest is too. `page` is the plan's, if it is to have one.
-pub fn write(
-    folder: &OutputFolder,
-    solution: &mut Solution,
-    trajectory: &Trajectory,
-    page: Option<&str>,
-    started: Instant,
-) -> Result<ResultFiles, Failure> {
-    folder.remove_earlier_plan()?;
-    let path = |name| folder.path().join(name);
-    let mut files = ResultFiles {
-        trajectory: None,
-        solution: path(SOLUTION_FILE),
-        attitude: None,
-        joints: None,
-        report: None,
-    };
-    if solution.status.is_acceptable() {
-        trajectory.write_csv(&path(TRAJECTORY_FILE))?;
-        files.trajectory = Some(path(TRAJECTORY_FILE));
-        let figure = |name, text: &str| write_whole(folder.path(), name, text.as_bytes());
-        files.attitude = Some(figure(ATTITUDE_FILE, &attitude_svg(solution, trajectory))?);
-        files.joints = Some(figure(JOINTS_FILE, &joints_svg(solution, trajectory))?);
-        files.report = page.map(|page| figure(REPORT_FILE, page)).transpose()?;
-    }
-    solution.timing_s.total = started.elapsed().as_secs_f64();
-    solution.write_json(&files.solution)?;
-    Ok(files)
 }

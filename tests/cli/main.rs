@@ -5,6 +5,8 @@ mod bad_input;
 mod browser;
 mod documents;
 mod envelope;
+mod export;
+mod figures;
 mod library;
 mod machine;
 #[cfg(unix)]

@@ -4,8 +4,16 @@ use serde_json::{Value, json};
 
 use crate::program::{files_in, folder_with, righting, small_detumble, small_slew, solve};
 
-const ALL_FILES: [&str; 5] =
-    ["attitude.svg", "joints.svg", "report.html", "solution.json", "trajectory.csv"];
+const ALL_FILES: [&str; 8] = [
+    "attitude.svg",
+    "convergence.svg",
+    "joints.svg",
+    "momentum.svg",
+    "power.svg",
+    "report.html",
+    "solution.json",
+    "trajectory.csv",
+];
 
 fn read_json(path: &std::path::Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).expect("readable")).expect("JSON")

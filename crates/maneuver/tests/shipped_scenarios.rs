@@ -48,6 +48,17 @@ fn every_scenario_and_system_is_valid_and_named_after_its_file() {
 }
 
 #[test]
+fn the_paper_s_folder_holds_the_shipped_maneuvers() {
+    let files = json_files(&scenarios().join("paper"));
+    assert_eq!(files.len(), 9);
+    for file in files {
+        let scenario = Scenario::read(&file).unwrap();
+        let shipped = shipped(file.file_stem().unwrap().to_str().unwrap());
+        assert_eq!(scenario.resolved(), shipped.resolved());
+    }
+}
+
+#[test]
 fn the_paper_s_maneuvers_have_the_paper_s_size() {
     for system in SYSTEMS {
         for (kind, suffix, formulation) in [

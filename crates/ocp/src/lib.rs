@@ -48,6 +48,7 @@ mod rk4;
 mod samples;
 mod solution;
 mod solve;
+mod sparsity;
 mod stage;
 mod start;
 mod step;
@@ -66,6 +67,7 @@ pub use refine::{Rung, close_guess_settings, refine, warm_start_settings};
 pub use samples::Samples;
 pub use solution::Solution;
 pub use solve::{LinearSolver, Settings, UsedLinearSolver};
+pub use sparsity::KktSparsity;
 pub use stage::StageFunctions;
 pub use start::{Guess, Start};
 

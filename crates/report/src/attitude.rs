@@ -38,15 +38,15 @@ pub fn attitude_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     let figure = Figure {
         title,
         subtitle,
-        times: nodes.iter().map(|node| node.time_s).collect(),
-        columns: 1,
+        places: nodes.iter().map(|node| node.time_s).collect(),
         panel_size: PANEL_SIZE,
         panels,
+        ..Figure::default()
     };
     figure.render()
 }
 
-fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
+pub(crate) fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
     let start = asked::unit(nodes[0].attitude);
     let turned: Vec<_> =
         nodes.iter().map(|n| rotation_deg(start, asked::unit(n.attitude))).collect();
@@ -61,6 +61,7 @@ fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
             .map(|i| Rule { kind: RuleKind::Target(colors[i]), value: asked[i] })
             .collect(),
         least_span: LEAST_ANGLE_SPAN_DEG,
+        ..Panel::default()
     };
     let errors: Vec<f64> =
         nodes.iter().map(|n| asked::unit(n.attitude).angle_to(&target).to_degrees()).collect();
@@ -72,6 +73,7 @@ fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
         curves: vec![magnitude(errors)],
         rules: Vec::new(),
         least_span: LEAST_ANGLE_SPAN_DEG,
+        ..Panel::default()
     };
     [rotation, error]
 }
@@ -88,10 +90,11 @@ fn quaternion_panel(nodes: &[Node]) -> Panel {
         curves,
         rules: Vec::new(),
         least_span: 1e-3,
+        ..Panel::default()
     }
 }
 
-fn rate_panel(nodes: &[Node]) -> Panel {
+pub(crate) fn rate_panel(nodes: &[Node]) -> Panel {
     let mut curves = components(["x", "y", "z"], |i| {
         nodes.iter().map(|n| n.angular_rate_rad_s[i].to_degrees()).collect()
     });
@@ -103,6 +106,7 @@ fn rate_panel(nodes: &[Node]) -> Panel {
         curves,
         rules: Vec::new(),
         least_span: LEAST_RATE_SPAN_DEG_S,
+        ..Panel::default()
     }
 }
 
@@ -119,6 +123,7 @@ fn spin_panel(nodes: &[Node], bound_deg_s: Option<f64>) -> Panel {
         curves: vec![magnitude(spin)],
         rules: bound_deg_s.map(|value| Rule { kind: RuleKind::Limit, value }).into_iter().collect(),
         least_span: LEAST_RATE_SPAN_DEG_S,
+        ..Panel::default()
     }
 }
 

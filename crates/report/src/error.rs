@@ -13,4 +13,27 @@ pub enum ReportError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A value is not one that the format of an export takes.
+    #[error("{keyword}: {value:?} is not allowed: {allowed}")]
+    Value {
+        /// The keyword it is for.
+        keyword: &'static str,
+        /// The value.
+        value: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The time tags of an attitude ephemeris would not increase or leave the calendar.
+    #[error(
+        "time tags: a step of {step_s} s from {epoch} is not allowed: at least 1e-9 s, up to the year 9999"
+    )]
+    TimeTags {
+        /// The step of the trajectory, s.
+        step_s: f64,
+        /// Its first time.
+        epoch: String,
+    },
+    /// An archive could not be made.
+    #[error("cannot make the archive: {0}")]
+    Archive(#[from] zip::result::ZipError),
 }

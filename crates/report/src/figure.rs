@@ -1,4 +1,4 @@
-//! A page of panels over one time axis.
+//! A page of panels over one horizontal axis.
 
 use righting_maneuver::Solution;
 
@@ -7,16 +7,32 @@ use crate::panel::{Panel, Placement};
 use crate::style;
 use crate::svg::{Anchor, Svg};
 
-/// Panels in a grid, row by row, sharing the nodes' times.
+/// Panels in a grid, row by row, sharing one horizontal axis.
 pub(crate) struct Figure {
     pub title: String,
     pub subtitle: String,
-    /// Times of the nodes, s.
-    pub times: Vec<f64>,
+    /// Name and unit of the horizontal axis.
+    pub across: &'static str,
+    /// Where the panels' values lie on it: times of the nodes, s, in most figures.
+    pub places: Vec<f64>,
     pub columns: usize,
     /// Width and height of every panel.
     pub panel_size: [f64; 2],
     pub panels: Vec<Panel>,
+}
+
+impl Default for Figure {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            subtitle: String::new(),
+            across: "Time [s]",
+            places: Vec::new(),
+            columns: 1,
+            panel_size: [0.0; 2],
+            panels: Vec::new(),
+        }
+    }
 }
 
 impl Figure {
@@ -44,12 +60,9 @@ impl Figure {
                 left + column as f64 * column_step + style::TICK_LABEL_WIDTH,
                 top + row as f64 * row_step + style::HEADING_HEIGHT,
             ];
-            let time_labels = i + columns >= self.panels.len();
-            panel.draw(
-                &mut svg,
-                &self.times,
-                Placement { corner, size: self.panel_size, time_labels },
-            );
+            let is_lowest = i + columns >= self.panels.len();
+            let across = if is_lowest { self.across } else { "" };
+            panel.draw(&mut svg, &self.places, Placement { corner, size: self.panel_size, across });
         }
         svg.finish()
     }

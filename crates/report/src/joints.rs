@@ -23,10 +23,11 @@ pub fn joints_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     let figure = Figure {
         title,
         subtitle,
-        times: trajectory.nodes().iter().map(|node| node.time_s).collect(),
+        places: trajectory.nodes().iter().map(|node| node.time_s).collect(),
         columns: 3,
         panel_size: PANEL_SIZE,
         panels,
+        ..Figure::default()
     };
     figure.render()
 }
@@ -82,5 +83,5 @@ fn panel(
     let limit = |value| Rule { kind: RuleKind::Limit, value };
     let rules = limits_deg.into_iter().flatten().map(limit).collect();
     let curves = vec![Curve { hold, ..Curve::plain(style::Z, values) }];
-    Panel { heading, axis_label: "", note, curves, rules, least_span }
+    Panel { heading, note, curves, rules, least_span, ..Panel::default() }
 }

@@ -1,4 +1,4 @@
-//! Figures, pages and summaries of solved maneuvers.
+//! Figures, pages, summaries and exports of solved maneuvers.
 //!
 //! Everything here reads results, a [`Solution`](righting_maneuver::Solution) with its
 //! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
@@ -21,41 +21,57 @@
 //! against 270 kB in 550 here.
 #![forbid(unsafe_code)]
 
+mod aem;
 mod asked;
 mod attitude;
 mod axis;
 mod chart;
+mod clearances;
+mod convergence;
 mod envelope;
 mod error;
 mod errors;
 mod figure;
 mod files;
 mod joints;
+mod maneuvers;
+mod momentum;
+mod npz;
 mod number;
 mod numbers;
 mod page;
 mod panel;
 mod power;
+mod power_trade;
 mod reach;
 mod reach_summary;
 mod slew_limits;
 mod slews;
+mod sparsity;
 pub mod style;
 mod summary;
 mod svg;
 mod table;
 
+pub use aem::{AemOptions, aem};
 pub use attitude::attitude_svg;
+pub use clearances::clearances_svg;
+pub use convergence::convergence_svg;
 pub use envelope::{EnvelopeOutlines, envelope_svg};
 pub use error::ReportError;
 pub use errors::errors_svg;
 pub use files::write_whole;
 pub use joints::joints_svg;
+pub use maneuvers::maneuvers_svg;
+pub use momentum::momentum_svg;
+pub use npz::npz;
 pub use number::short;
 pub use page::report_html;
 pub use power::{PowerComparison, power_svg, power_table};
+pub use power_trade::{PowerTrade, power_trade_svg};
 pub use reach::reach_svg;
 pub use reach_summary::reach_summary;
 pub use slew_limits::slew_limits_svg;
 pub use slews::slews_svg;
+pub use sparsity::sparsity_svg;
 pub use summary::{status_phrase, summary, verification_summary};

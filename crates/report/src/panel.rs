@@ -1,4 +1,4 @@
-//! One set of axes: curves over time, with the values they must keep to.
+//! One set of axes: curves over time, or another quantity, with the values they must keep to.
 
 use crate::axis::Range;
 use crate::number::short;
@@ -6,6 +6,7 @@ use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
 
 /// A quantity over time.
+#[derive(Clone)]
 pub(crate) struct Curve {
     /// Its legend entry; none when empty.
     pub name: String,
@@ -32,6 +33,7 @@ impl Curve {
 }
 
 /// A constant that curves are judged by.
+#[derive(Clone, Copy)]
 pub(crate) struct Rule {
     pub kind: RuleKind,
     pub value: f64,
@@ -48,7 +50,17 @@ pub(crate) enum RuleKind {
     Reference,
 }
 
+/// How values map to heights.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(crate) enum Scale {
+    #[default]
+    Linear,
+    /// Powers of ten; what is not positive is not drawn.
+    Logarithmic,
+}
+
 /// A panel's contents.
+#[derive(Clone, Default)]
 pub(crate) struct Panel {
     pub heading: String,
     /// Quantity and unit; left out when empty.
@@ -57,8 +69,10 @@ pub(crate) struct Panel {
     pub note: String,
     pub curves: Vec<Curve>,
     pub rules: Vec<Rule>,
-    /// The least height of the axis, in its unit: anything smaller is drawn as constant.
+    /// The least height of the axis, in its unit: anything smaller is drawn as constant. A
+    /// logarithmic axis has one decade at least instead.
     pub least_span: f64,
+    pub scale: Scale,
 }
 
 /// Where a panel lies on the page.
@@ -66,8 +80,8 @@ pub(crate) struct Panel {
 pub(crate) struct Placement {
     pub corner: [f64; 2],
     pub size: [f64; 2],
-    /// Draw time tick labels and the name of the time axis.
-    pub time_labels: bool,
+    /// Name of the horizontal axis, drawn with its tick labels; neither when empty.
+    pub across: &'static str,
 }
 
 const RULE_LABEL_INSET: f64 = 4.0;
@@ -114,9 +128,32 @@ impl Panel {
 
     /// Draws the panel over the nodes at `times`.
     pub fn draw(&self, svg: &mut Svg, times: &[f64], at: Placement) {
+        if self.scale == Scale::Logarithmic {
+            self.in_decades().draw_linearly(svg, times, at, Scale::Logarithmic);
+        } else {
+            self.draw_linearly(svg, times, at, Scale::Linear);
+        }
+    }
+
+    /// The same with the decimal logarithms of all values.
+    fn in_decades(&self) -> Self {
+        let decades = |value: f64| if value > 0.0 { value.log10() } else { f64::NAN };
+        let mut panel = self.clone();
+        panel.scale = Scale::Linear;
+        panel.least_span = 1.0;
+        let values = panel.curves.iter_mut().flat_map(|curve| &mut curve.values);
+        values.chain(panel.rules.iter_mut().map(|rule| &mut rule.value)).for_each(|value| {
+            *value = decades(*value);
+        });
+        panel
+    }
+
+    fn draw_linearly(&self, svg: &mut Svg, times: &[f64], at: Placement, scale: Scale) {
         let axes = Axes {
             time: Range::of(times.iter().copied()).unwrap_or(Range { low: 0.0, high: 1.0 }),
             value: self.range(at.size[1]),
+            has_fractions: times.iter().any(|time| time.fract() != 0.0),
+            scale,
             at,
         };
         axes.draw_grid(svg);
@@ -149,7 +186,8 @@ impl Panel {
             svg.text([right, base], Anchor::End, size, style::FAINT_INK, &self.note);
             right -= advance(&self.note) + 14.0;
         }
-        let room = left + advance(&self.heading) * style::LABEL_SIZE / style::SMALL_SIZE;
+        // Legends may come as near to the heading as its real letters allow.
+        let room = left + 0.88 * advance(&self.heading) * style::LABEL_SIZE / style::SMALL_SIZE;
         for curve in self.curves.iter().rev().filter(|curve| !curve.name.is_empty()) {
             let size = style::SMALL_SIZE;
             if right - advance(&curve.name) - 21.0 < room {
@@ -175,6 +213,10 @@ fn advance(text: &str) -> f64 {
 struct Axes {
     time: Range,
     value: Range,
+    /// Whether there is anything between whole numbers of the horizontal axis.
+    has_fractions: bool,
+    /// How ticks of values are labelled.
+    scale: Scale,
     at: Placement,
 }
 
@@ -188,29 +230,47 @@ impl Axes {
         self.at.corner[1] + self.at.size[1] * (self.value.high - value) / self.value.span()
     }
 
+    /// Ticks of the value axis: of a logarithmic one at whole powers, and between them where it
+    /// shows no two of those.
+    fn value_ticks(&self, count: f64) -> Vec<(f64, String)> {
+        let ticks = self.value.ticks(count);
+        if self.scale == Scale::Linear {
+            return ticks;
+        }
+        let is_whole = |value: f64| (value - value.round()).abs() < 1e-9;
+        let few = self.value.span() < 2.0;
+        let ticks = ticks.into_iter().filter(|(value, _)| few || is_whole(*value));
+        let label = |value: f64| if few { short(10f64.powf(value)) } else { power_of_ten(value) };
+        ticks.map(|(value, _)| (value, label(value))).collect()
+    }
+
     fn draw_grid(&self, svg: &mut Svg) {
         let [left, top] = self.at.corner;
         let [width, height] = self.at.size;
         let grid = Stroke { color: style::GRID, width: style::HAIR_WIDTH, dash: "" };
         let size = style::SMALL_SIZE;
         for (time, label) in self.time.ticks(6.0) {
+            if !self.has_fractions && time.fract().abs() > 1e-9 {
+                continue;
+            }
             let x = self.x(time);
+            let label = if self.has_fractions { label } else { format!("{time:.0}") };
             svg.line([x, top], [x, top + height], grid);
-            if self.at.time_labels {
+            if !self.at.across.is_empty() {
                 let at = [x, top + height + size + 4.0];
                 svg.text(at, Anchor::Middle, size, style::INK, &label);
             }
         }
-        for (value, label) in self.value.ticks((height / 20.0).clamp(4.0, 6.0)) {
+        for (value, label) in self.value_ticks((height / 20.0).clamp(4.0, 6.0)) {
             let y = self.y(value);
             svg.line([left, y], [left + width, y], grid);
             svg.text([left - 5.0, y + 0.35 * size], Anchor::End, size, style::INK, &label);
         }
         let frame = Stroke { color: style::FRAME, width: style::HAIR_WIDTH, dash: "" };
         svg.frame(self.at.corner, self.at.size, frame);
-        if self.at.time_labels {
+        if !self.at.across.is_empty() {
             let at = [left + 0.5 * width, top + height + style::TIME_AXIS_HEIGHT - 6.0];
-            svg.text(at, Anchor::Middle, style::LABEL_SIZE, style::INK, "Time [s]");
+            svg.text(at, Anchor::Middle, style::LABEL_SIZE, style::INK, self.at.across);
         }
     }
 
@@ -238,7 +298,11 @@ impl Axes {
         if off_scale {
             let arrow = if above { '\u{2191}' } else { '\u{2193}' };
             let baseline = if above { y + style::SMALL_SIZE } else { y - 3.5 };
-            let label = format!("{} {arrow} off scale", short(rule.value));
+            let value = match self.scale {
+                Scale::Linear => rule.value,
+                Scale::Logarithmic => 10f64.powf(rule.value),
+            };
+            let label = format!("{} {arrow} off scale", short(value));
             let at = [right - RULE_LABEL_INSET, baseline];
             svg.text(at, Anchor::End, style::SMALL_SIZE, color, &label);
         }
@@ -261,6 +325,19 @@ impl Axes {
         }
         runs.iter().map(|run| thinned(run)).collect()
     }
+}
+
+/// 10 with the whole exponent raised.
+fn power_of_ten(exponent: f64) -> String {
+    let raised = |c: char| match c {
+        '-' => '\u{207b}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    };
+    let digits: String = format!("{exponent:.0}").chars().map(raised).collect();
+    format!("10{digits}")
 }
 
 /// `points`, ordered in x, with no more than first, lowest, highest and last of each quarter pixel:
@@ -290,8 +367,7 @@ mod tests {
         let rules =
             limits.iter().map(|&value| Rule { kind: RuleKind::Limit, value }).collect::<Vec<_>>();
         let curves = vec![Curve::plain(style::Z, values)];
-        let heading = String::new();
-        Panel { heading, axis_label: "", note: String::new(), curves, rules, least_span: 1e-3 }
+        Panel { curves, rules, least_span: 1e-3, ..Panel::default() }
     }
 
     #[test]
@@ -320,11 +396,28 @@ mod tests {
     }
 
     #[test]
+    fn powers_of_ten_are_raised() {
+        let shown = [-12.0, 0.0, 3.0].map(power_of_ten);
+        assert_eq!(shown, ["10⁻¹²", "10⁰", "10³"]);
+    }
+
+    #[test]
+    fn what_is_not_positive_has_no_logarithm() {
+        let logarithmic = panel(vec![1e-3, 0.0, -1.0, 100.0], &[10.0]).in_decades();
+        assert_eq!(logarithmic.curves[0].values[0], -3.0);
+        assert!(logarithmic.curves[0].values[1].is_nan());
+        assert!(logarithmic.curves[0].values[2].is_nan());
+        assert_eq!((logarithmic.curves[0].values[3], logarithmic.rules[0].value), (2.0, 1.0));
+    }
+
+    #[test]
     fn gaps_break_a_curve() {
         let axes = Axes {
             time: Range { low: 0.0, high: 3.0 },
             value: Range { low: 0.0, high: 1.0 },
-            at: Placement { corner: [0.0, 0.0], size: [3.0, 1.0], time_labels: false },
+            has_fractions: true,
+            scale: Scale::Linear,
+            at: Placement { corner: [0.0, 0.0], size: [3.0, 1.0], across: "" },
         };
         let curve = Curve::plain("", vec![1.0, f64::NAN, 0.0, 0.5]);
         let runs = axes.runs(&[0.0, 1.0, 2.0, 3.0], &curve);

@@ -44,10 +44,10 @@ pub fn power_svg(solution: &Solution, comparison: PowerComparison<'_>) -> String
     let figure = Figure {
         title,
         subtitle,
-        times: instants.iter().map(|instant| instant.time_s).collect(),
-        columns: 1,
+        places: instants.iter().map(|instant| instant.time_s).collect(),
         panel_size: PANEL_SIZE,
         panels: vec![torque_panel(instants), mechanical_panel(instants), drawn_panel(comparison)],
+        ..Figure::default()
     };
     figure.render()
 }
@@ -60,6 +60,7 @@ fn torque_panel(instants: &[Instant]) -> Panel {
         curves: joint_curves(instants, |instant| &instant.joint_torques_n_m),
         rules: Vec::new(),
         least_span: LEAST_TORQUE_SPAN_N_M,
+        ..Panel::default()
     }
 }
 
@@ -75,33 +76,37 @@ fn mechanical_panel(instants: &[Instant]) -> Panel {
         curves,
         rules: Vec::new(),
         least_span: LEAST_POWER_SPAN_W,
+        ..Panel::default()
     }
 }
 
 fn drawn_panel(comparison: PowerComparison<'_>) -> Panel {
     let PowerComparison { profile, efficiency, wheels } = comparison;
     // The later is drawn over the earlier where they agree, the paper's over all.
-    let curves = [
-        (Accounting::WithoutRegeneration, "no regen.", ""),
-        (Accounting::WithRegeneration, "regen.", style::SERIES_DASHES[1]),
-        (Accounting::Absolute, "absolute", ""),
-        (Accounting::Signed, "signed", ""),
-    ];
-    let curve = |(i, (accounting, name, dash)): (usize, (Accounting, &str, &'static str))| Curve {
-        name: name.to_owned(),
-        dash,
-        ..Curve::plain(style::SERIES[i], profile.drawn_w(accounting, efficiency))
-    };
+    let curves = Accounting::ALL.into_iter().rev();
+    let curve = |accounting| accounting_curve(accounting, profile.drawn_w(accounting, efficiency));
     let one_wheel =
         wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min);
     Panel {
         heading: format!("Power drawn, \u{3b7} = {}", short(efficiency)),
         axis_label: "Power [W]",
         note: format!("dashed: one wheel, {} W", short(one_wheel)),
-        curves: curves.into_iter().enumerate().map(curve).collect(),
+        curves: curves.map(curve).collect(),
         rules: vec![Rule { kind: RuleKind::Reference, value: one_wheel }],
         least_span: LEAST_POWER_SPAN_W,
+        ..Panel::default()
     }
+}
+
+/// The curve of a variant: the same colour and short name in every figure.
+pub(crate) fn accounting_curve(accounting: Accounting, values: Vec<f64>) -> Curve {
+    let (name, color, dash) = match accounting {
+        Accounting::Signed => ("signed", style::SERIES[0], ""),
+        Accounting::Absolute => ("absolute", style::SERIES[1], ""),
+        Accounting::WithoutRegeneration => ("no regen.", style::SERIES[2], style::SERIES_DASHES[1]),
+        Accounting::WithRegeneration => ("regen.", style::SERIES[3], ""),
+    };
+    Curve { name: name.to_owned(), dash, ..Curve::plain(color, values) }
 }
 
 fn joint_curves(instants: &[Instant], of: impl Fn(&Instant) -> &Vec<f64>) -> Vec<Curve> {

@@ -70,6 +70,15 @@ impl Svg {
         self.stroke(stroke);
     }
 
+    /// Filled squares of one colour by their upper left corners.
+    pub fn squares(&mut self, corners: impl Iterator<Item = [f64; 2]>, side: f64, color: &str) {
+        self.text.push_str("<path d=\"");
+        for [x, y] in corners {
+            self.push(format_args!("M{x:.2} {y:.2}h{side:.2}v{side:.2}h-{side:.2}z"));
+        }
+        self.push(format_args!("\" fill=\"{color}\"/>\n"));
+    }
+
     /// The outline of a rectangle.
     pub fn frame(&mut self, corner: [f64; 2], size: [f64; 2], stroke: Stroke) {
         self.push(format_args!(

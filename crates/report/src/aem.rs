@@ -1,0 +1,147 @@
+//! Attitude Ephemeris Messages: CCSDS 504.0-B-2, version 2.0, keyword = value notation.
+//!
+//! The quaternion “from frame A to frame B” is that of the rotation whose images of A's basis vectors
+//! are B's (annex F2). With the inertial frame as A and the body as B that is the attitude as this
+//! project writes it, body → inertial by Hamilton's product, its scalar moved to the end.
+
+use std::fmt::Write;
+
+use jiff::SignedDuration;
+use jiff::civil::DateTime;
+use righting_maneuver::{Node, Solution, Trajectory};
+
+use crate::ReportError;
+use crate::asked;
+
+/// What a message says beyond the trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AemOptions {
+    /// Time of the first node, in the time system.
+    pub epoch: DateTime,
+    /// When the message is made, UTC.
+    pub creation_date: DateTime,
+    /// Who makes it.
+    pub originator: String,
+    /// Name of the spacecraft.
+    pub object_name: String,
+    /// Its international designator, or UNKNOWN.
+    pub object_id: String,
+    /// The inertial frame that the plan's inertial axes are.
+    pub inertial_frame: String,
+    /// The time system of all time tags.
+    pub time_system: String,
+}
+
+/// The longest value that keeps a line within 254 characters.
+const LONGEST_VALUE: usize = 200;
+/// Name of the body frame.
+const BODY_FRAME: &str = "SC_BODY_1";
+const NANOSECONDS: f64 = 1e9;
+
+/// The attitude and the angular rate at every node as a message.
+///
+/// # Errors
+/// [`ReportError::Value`] for a value that a line cannot hold; [`ReportError::TimeTags`] where nodes
+/// are less than a nanosecond apart or leave the calendar.
+pub fn aem(
+    solution: &Solution,
+    trajectory: &Trajectory,
+    options: &AemOptions,
+) -> Result<String, ReportError> {
+    let tags = time_tags(trajectory, options.epoch)?;
+    let scenario = &solution.scenario;
+    let mut text = String::new();
+    let mut line = |arguments: std::fmt::Arguments<'_>| {
+        text.write_fmt(arguments).expect("a string takes all that is written to it");
+        text.push('\n');
+    };
+    line(format_args!("CCSDS_AEM_VERS = 2.0"));
+    line(format_args!(
+        "COMMENT {}",
+        plain(&format!("Planned by Righting {}", solution.versions.righting))
+    ));
+    line(format_args!("COMMENT {}", plain(&asked::phrase(scenario))));
+    line(format_args!("COMMENT scenario SHA-256 {}", plain(&solution.scenario_sha256)));
+    line(format_args!("CREATION_DATE = {:.0}", options.creation_date));
+    line(format_args!("ORIGINATOR = {}", value("ORIGINATOR", &options.originator)?));
+    line(format_args!(""));
+    line(format_args!("META_START"));
+    line(format_args!("OBJECT_NAME = {}", value("OBJECT_NAME", &options.object_name)?));
+    line(format_args!("OBJECT_ID = {}", value("OBJECT_ID", &options.object_id)?));
+    line(format_args!("REF_FRAME_A = {}", value("REF_FRAME_A", &options.inertial_frame)?));
+    line(format_args!("REF_FRAME_B = {BODY_FRAME}"));
+    line(format_args!("TIME_SYSTEM = {}", value("TIME_SYSTEM", &options.time_system)?));
+    line(format_args!("START_TIME = {}", tags[0]));
+    line(format_args!("STOP_TIME = {}", tags[tags.len() - 1]));
+    line(format_args!("ATTITUDE_TYPE = QUATERNION/ANGVEL"));
+    line(format_args!("ANGVEL_FRAME = {BODY_FRAME}"));
+    line(format_args!("META_STOP"));
+    line(format_args!(""));
+    line(format_args!("DATA_START"));
+    for (tag, node) in tags.iter().zip(trajectory.nodes()) {
+        line(format_args!("{tag}{}", numbers(node)));
+    }
+    line(format_args!("DATA_STOP"));
+    Ok(text)
+}
+
+/// Q1 Q2 Q3 QC and the angular rate in deg/s, 16 digits each, as many as the format takes.
+fn numbers(node: &Node) -> String {
+    let [x, y, z, w] = {
+        let unit = asked::unit(node.attitude);
+        [unit.i, unit.j, unit.k, unit.w]
+    };
+    let rates = node.angular_rate_rad_s.map(f64::to_degrees);
+    let mut text = String::new();
+    for number in [x, y, z, w].into_iter().chain(rates) {
+        // The format has no negative zero.
+        let number = if number == 0.0 { 0.0 } else { number };
+        write!(text, " {number:.15e}").expect("a string takes all that is written to it");
+    }
+    text
+}
+
+/// The nodes' times, with as few of 3, 6 or 9 decimals as tell them to the nanosecond.
+fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, ReportError> {
+    let steps_s = trajectory.nodes().windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
+    let refused = || ReportError::TimeTags {
+        step_s: steps_s.clone().fold(f64::INFINITY, f64::min),
+        epoch: epoch.to_string(),
+    };
+    let at = |node: &Node| {
+        let nanoseconds = (node.time_s * NANOSECONDS).round();
+        // Within i64 once within the calendar.
+        let offset = SignedDuration::from_nanos(nanoseconds as i64);
+        (nanoseconds.abs() < 9e18).then(|| epoch.checked_add(offset).ok()).flatten()
+    };
+    let times: Option<Vec<DateTime>> = trajectory.nodes().iter().map(at).collect();
+    let times = times.ok_or_else(refused)?;
+    if times.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Err(refused());
+    }
+    let multiple_of = |unit: i32| times.iter().all(|time| time.subsec_nanosecond() % unit == 0);
+    let decimals = match (multiple_of(1_000_000), multiple_of(1_000)) {
+        (true, _) => 3,
+        (_, true) => 6,
+        _ => 9,
+    };
+    Ok(times.into_iter().map(|time| format!("{time:.decimals$}")).collect())
+}
+
+/// A text value: printable ASCII on one line, upper case as the format asks for.
+fn value(keyword: &'static str, value: &str) -> Result<String, ReportError> {
+    let trimmed = value.trim();
+    let is_plain = trimmed.chars().all(|c| c == ' ' || c.is_ascii_graphic());
+    if trimmed.is_empty() || trimmed.len() > LONGEST_VALUE || !is_plain {
+        let allowed = "1 to 200 printable ASCII characters";
+        return Err(ReportError::Value { keyword, value: value.to_owned(), allowed });
+    }
+    Ok(trimmed.to_ascii_uppercase())
+}
+
+/// A comment of any text in printable ASCII.
+fn plain(comment: &str) -> String {
+    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg").replace('\u{2212}', "-");
+    let is_plain = |&c: &char| c == ' ' || c.is_ascii_graphic();
+    spelt.chars().filter(is_plain).take(LONGEST_VALUE).collect()
+}

@@ -1,0 +1,101 @@
+//! `righting figures`: draw a plan's figures again, or everything in the paper.
+
+mod paper;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use righting_maneuver::power::PAPER_EFFICIENCY;
+use righting_maneuver::sparsity::kkt_sparsity;
+use righting_maneuver::verifier::SOLUTION_FILE;
+use righting_maneuver::{
+    Error, Histories, PlanError, PowerProfile, Scenario, Solution, Trajectory, Verified,
+    WheelArray, verify_directory,
+};
+use righting_report::{
+    PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg, momentum_svg,
+    power_svg, sparsity_svg, write_whole,
+};
+
+use crate::failure::Failure;
+use crate::output;
+use crate::output_folder::{
+    ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
+    POWER_FIGURE_FILE, SPARSITY_FILE,
+};
+
+/// Intervals whose part of the KKT matrix is drawn.
+const SPARSITY_STEPS: usize = 4;
+
+/// Draw the figures of a plan again, or, from the paper's scenarios, all of the paper's figures and
+/// tables.
+#[derive(Args)]
+pub struct Arguments {
+    /// The folder of a plan, or one with the paper's scenarios.
+    #[arg(value_name = "DIR", default_value = "scenarios/paper")]
+    folder: PathBuf,
+    /// The folder for the figures; the plan's own, or out/paper, if not given.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Which figures a solve draws.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureSet {
+    /// None.
+    None,
+    /// Those of the motion and of the solver.
+    Usual,
+    /// The sparsity of the nonlinear program too.
+    All,
+}
+
+/// Draws what the folder is of.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let Arguments { folder, out } = arguments;
+    if !folder.join(SOLUTION_FILE).exists() && folder.join(paper::FIRST_SCENARIO).exists() {
+        return paper::run(folder, out.as_deref().unwrap_or(Path::new("out/paper")));
+    }
+    let Verified { solution, scenario, trajectory, verification } = verify_directory(folder)?;
+    let solution = Solution { verification, ..solution };
+    let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
+    let files = draw(folder.path(), FigureSet::All, &scenario, &solution, &trajectory)?;
+    let listed: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
+    output::print(&listed)?;
+    Failure::of_verification(&solution).map_or(Ok(()), Err)
+}
+
+/// Draws the figures of a plan into a folder; the files, in the order a reader wants them.
+pub fn draw(
+    folder: &Path,
+    set: FigureSet,
+    scenario: &Scenario,
+    solution: &Solution,
+    trajectory: &Trajectory,
+) -> Result<Vec<PathBuf>, Failure> {
+    if set == FigureSet::None {
+        return Ok(Vec::new());
+    }
+    let histories = Histories::new(scenario, trajectory).map_err(Error::from)?;
+    let profile = PowerProfile::new(scenario, trajectory).map_err(Error::from)?;
+    let wheels = WheelArray::pyramid();
+    let power =
+        PowerComparison { profile: &profile, efficiency: PAPER_EFFICIENCY, wheels: &wheels };
+    let mut figures = vec![
+        (ATTITUDE_FILE, attitude_svg(solution, trajectory)),
+        (JOINTS_FILE, joints_svg(solution, trajectory)),
+        (MOMENTUM_FILE, momentum_svg(solution, trajectory, &histories)),
+        (POWER_FIGURE_FILE, power_svg(solution, power)),
+    ];
+    let clearances = clearances_svg(solution, trajectory, &histories);
+    figures.extend(clearances.map(|figure| (CLEARANCES_FILE, figure)));
+    figures.extend(convergence_svg(solution).map(|figure| (CONVERGENCE_FILE, figure)));
+    if set == FigureSet::All {
+        let steps = SPARSITY_STEPS.min(trajectory.steps());
+        let sparsity = kkt_sparsity(scenario, steps).map_err(PlanError::from)?;
+        figures.push((SPARSITY_FILE, sparsity_svg(solution, &sparsity, steps)));
+    }
+    let write = |(name, figure): (&str, String)| write_whole(folder, name, figure.as_bytes());
+    Ok(figures.into_iter().map(write).collect::<Result<_, _>>()?)
+}

@@ -1,0 +1,214 @@
+//! Plans in the formats of other programs, read back by other means.
+
+use crate::program::{files_in, folder_with, righting, small_detumble, small_slew, solve};
+
+/// An Attitude Ephemeris Message as its standard defines it (CCSDS 504.0-B-2): keywords, and data
+/// lines of EPOCH Q1 Q2 Q3 QC ANGVEL_X ANGVEL_Y ANGVEL_Z.
+struct Message {
+    keywords: Vec<(String, String)>,
+    lines: Vec<(f64, [f64; 4], [f64; 3])>,
+}
+
+impl Message {
+    fn parse(text: &str) -> Self {
+        let (head, rest) = text.split_once("DATA_START\n").expect("a data section");
+        let data = rest.strip_suffix("DATA_STOP\n").expect("its end");
+        assert!(text.is_ascii() && text.lines().all(|line| line.len() <= 254));
+        let keywords = head.lines().filter_map(|line| line.split_once(" = "));
+        let keywords = keywords.map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+        let lines = data.lines().map(|line| {
+            let mut cells = line.split(' ');
+            let tag = cells.next().expect("an epoch");
+            let (date, time) = tag.split_once('T').expect("a date and a time");
+            assert_eq!(date, "2027-03-01", "{line}");
+            let clock: Vec<f64> = time.split(':').map(|part| part.parse().expect("")).collect();
+            let seconds = 3600.0 * clock[0] + 60.0 * clock[1] + clock[2];
+            let numbers: Vec<f64> = cells.map(|cell| cell.parse().expect("a number")).collect();
+            let [q1, q2, q3, qc, x, y, z] = numbers[..] else { panic!("{line}") };
+            (seconds, [q1, q2, q3, qc], [x, y, z])
+        });
+        Self { keywords, lines: lines.collect() }
+    }
+
+    fn get(&self, keyword: &str) -> &str {
+        let found = self.keywords.iter().find(|(key, _)| key == keyword);
+        found.map_or_else(|| panic!("no {keyword}"), |(_, value)| value)
+    }
+}
+
+/// The matrix that takes coordinates in frame A to coordinates in frame B (annex F2).
+fn frame_transformation([q1, q2, q3, qc]: [f64; 4]) -> [[f64; 3]; 3] {
+    let square = |q: f64| q * q;
+    [
+        [
+            square(q1) - square(q2) - square(q3) + square(qc),
+            2.0 * (q1 * q2 + q3 * qc),
+            2.0 * (q1 * q3 - q2 * qc),
+        ],
+        [
+            2.0 * (q1 * q2 - q3 * qc),
+            -square(q1) + square(q2) - square(q3) + square(qc),
+            2.0 * (q2 * q3 + q1 * qc),
+        ],
+        [
+            2.0 * (q1 * q3 + q2 * qc),
+            2.0 * (q2 * q3 - q1 * qc),
+            -square(q1) - square(q2) + square(q3) + square(qc),
+        ],
+    ]
+}
+
+fn exported(scenario: &serde_json::Value) -> Message {
+    let folder = folder_with(scenario);
+    assert_eq!(solve(folder.path()).code, 0);
+    let run = righting(
+        folder.path(),
+        &["export", "out", "--format", "aem", "--epoch", "2027-03-01T23:59:00Z"],
+    );
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert_eq!(run.stdout, "out/attitude.aem\n");
+    let text = std::fs::read_to_string(folder.path().join("out/attitude.aem")).expect("written");
+    assert!(text.starts_with("CCSDS_AEM_VERS = 2.0\n"));
+    Message::parse(&text)
+}
+
+#[test]
+fn a_message_tells_frames_times_and_attitude() {
+    let message = exported(&small_slew());
+    for (keyword, value) in [
+        ("ORIGINATOR", "RIGHTING"),
+        ("OBJECT_NAME", "TWO_JOINTS"),
+        ("OBJECT_ID", "UNKNOWN"),
+        ("REF_FRAME_A", "EME2000"),
+        ("REF_FRAME_B", "SC_BODY_1"),
+        ("TIME_SYSTEM", "UTC"),
+        ("START_TIME", "2027-03-01T23:59:00.000"),
+        ("STOP_TIME", "2027-03-01T23:59:20.000"),
+        ("ATTITUDE_TYPE", "QUATERNION/ANGVEL"),
+        ("ANGVEL_FRAME", "SC_BODY_1"),
+    ] {
+        assert_eq!(message.get(keyword), value);
+    }
+    assert_eq!(message.lines.len(), 41);
+    assert!(message.lines.windows(2).all(|pair| (pair[1].0 - pair[0].0 - 0.5).abs() < 1e-9));
+    // The slew turns the body by 2° about x: y of the body leans towards z of the inertial frame.
+    let (sin, cos) = 2f64.to_radians().sin_cos();
+    let last = frame_transformation(message.lines[40].1);
+    for (row, expected) in last.iter().zip([[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]]) {
+        for (found, expected) in row.iter().zip(expected) {
+            assert!((found - expected).abs() < 2e-3, "{last:?}");
+        }
+    }
+    assert!((last[1][2] - sin).abs() < 0.1 * sin);
+}
+
+/// Seen from the body, what stands still turns backwards: Ṁ = −[ω]× M, with ω in deg/s and body axes;
+/// over one interval the mean of both ends is near.
+#[test]
+fn a_message_s_rates_are_those_of_its_attitudes() {
+    let mut fine = small_detumble();
+    fine["horizon"]["steps"] = serde_json::json!(160);
+    let lines = exported(&fine).lines;
+    let mut largest = 0.0_f64;
+    for two in lines.windows(2) {
+        let step_s = two[1].0 - two[0].0;
+        let matrices = [0, 1].map(|i| frame_transformation(two[i].1));
+        let slope = |at: usize, row: usize, column: usize| -> f64 {
+            let [x, y, z] = two[at].2.map(f64::to_radians);
+            let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+            -(0..3).map(|k| cross[row][k] * matrices[at][k][column]).sum::<f64>()
+        };
+        for (row, column) in (0..9).map(|i| (i / 3, i % 3)) {
+            let found = (matrices[1][row][column] - matrices[0][row][column]) / step_s;
+            let expected = 0.5 * (slope(0, row, column) + slope(1, row, column));
+            largest = largest.max(expected.abs());
+            assert!((found - expected).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+    assert!(largest > 0.05, "{largest} rad/s shows little");
+}
+
+/// A reader of NumPy's archives as its documents describe them: stored members of a ZIP file, each a
+/// dictionary and doubles.
+fn array(archive: &[u8], name: &str) -> (String, Vec<f64>) {
+    let name = format!("{name}.npy");
+    let at = (0..archive.len() - name.len())
+        .find(|&i| {
+            archive[i..].starts_with(b"PK\x03\x04")
+                && archive[i + 30..].starts_with(name.as_bytes())
+        })
+        .unwrap_or_else(|| panic!("no {name}"));
+    let short = |i: usize| usize::from(u16::from_le_bytes([archive[i], archive[i + 1]]));
+    let size = short(at + 22) + (short(at + 24) << 16);
+    let start = at + 30 + short(at + 26) + short(at + 28);
+    let npy = &archive[start..start + size];
+    assert_eq!(npy[..8], *b"\x93NUMPY\x01\x00");
+    let header = usize::from(u16::from_le_bytes([npy[8], npy[9]]));
+    assert_eq!((10 + header) % 64, 0);
+    let text = std::str::from_utf8(&npy[10..10 + header]).expect("text").trim().to_owned();
+    let cells = npy[10 + header..].chunks_exact(8);
+    let double = |cell: &[u8]| f64::from_le_bytes(cell.try_into().expect("eight bytes"));
+    (text, cells.map(double).collect())
+}
+
+#[test]
+fn an_archive_holds_the_table() {
+    let folder = folder_with(&small_slew());
+    assert_eq!(solve(folder.path()).code, 0);
+    let run =
+        righting(folder.path(), &["export", "out", "--format", "npz", "--out", "elsewhere/a.npz"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let archive = std::fs::read(folder.path().join("elsewhere/a.npz")).expect("written");
+    let table = std::fs::read_to_string(folder.path().join("out/trajectory.csv")).expect("there");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let groups = [
+        ("t_s", "t_s", 1),
+        ("r_m", "rx_m", 3),
+        ("q_wxyz", "qw", 4),
+        ("v_m_s", "vx_m_s", 3),
+        ("w_rad_s", "wx_rad_s", 3),
+        ("q_rad", "q1_rad", 2),
+        ("dq_rad_s", "dq1_rad_s", 2),
+        ("u_rad_s2", "u1_rad_s2", 2),
+        ("tau_n_m", "tau1_n_m", 2),
+        ("power_w", "power_w", 1),
+    ];
+    for (name, first, width) in groups {
+        let (header, values) = array(&archive, name);
+        let column = rows[0].iter().position(|cell| *cell == first).expect("a column");
+        let cells: Vec<f64> = rows[1..]
+            .iter()
+            .flat_map(|row| &row[column..column + width])
+            .filter(|cell| !cell.is_empty())
+            .map(|cell| cell.parse().expect("a number"))
+            .collect();
+        assert_eq!(values, cells, "{name}");
+        let count = cells.len() / width;
+        let shape = if width == 1 { format!("({count},)") } else { format!("({count}, {width})") };
+        let expected = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
+        assert_eq!(header, expected);
+    }
+}
+
+#[test]
+fn what_cannot_be_exported_is_refused() {
+    let folder = folder_with(&small_slew());
+    let run = |options: &[&str]| {
+        righting(folder.path(), &[&["export", "out", "--format", "aem"], options].concat())
+    };
+    run(&[]).assert_refused("no such file");
+    assert_eq!(solve(folder.path()).code, 0);
+    run(&["--object-name", "ÉTOILE"]).assert_refused("OBJECT_NAME: \"ÉTOILE\" is not allowed");
+    run(&["--object-id", ""]).assert_refused("OBJECT_ID");
+    run(&["--epoch", "9999-12-31T23:59:59"]).assert_refused("time tags");
+    let late = run(&["--epoch", "tomorrow"]);
+    assert!(late.code == 2 && late.stderr.contains("2027-03-01T12:00:00"), "{}", late.stderr);
+    assert!(!files_in(&folder.path().join("out")).contains(&"attitude.aem".to_owned()));
+    // A plan that does not hold is not handed on.
+    let table = folder.path().join("out/trajectory.csv");
+    let text = std::fs::read_to_string(&table).expect("readable");
+    let changed = text.replacen("0.0000000000000000e0,", "1.0000000000000000e-2,", 2);
+    std::fs::write(&table, changed).expect("writable");
+    assert_eq!(run(&[]).code, 4);
+    assert!(!files_in(&folder.path().join("out")).contains(&"attitude.aem".to_owned()));
+}
