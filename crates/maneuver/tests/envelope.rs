@@ -61,8 +61,14 @@ fn the_true_envelope_of_the_paper_s_arm() {
         let bound = envelope.true_volume_bound.expect("the origin is inside");
         assert!(envelope.true_volume < bound && bound < 1.06 * envelope.true_volume);
     }
-    let [x, y, _] = found.torque.per_axis_max;
-    assert!(x > array.extent(&Vector3::x()) && y > array.extent(&Vector3::y()));
+    // The arm out-torques the wheels along every direction between x and y.
+    for degree in 0..360 {
+        let (sin, cos) = f64::from(degree).to_radians().sin_cos();
+        let direction = Vector3::new(cos, sin, 0.0);
+        let reached = found.torque.extreme_points.iter().map(|point| point.dot(&direction));
+        let reached = reached.fold(0.0, f64::max);
+        assert!(reached > 10.0 * array.extent(&direction), "{degree}°: {reached}");
+    }
 }
 
 #[test]
