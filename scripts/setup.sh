@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes sure that everything the build needs is there; with "test", also the browser that the tests
-# drive, with "bench", also what the comparison needs.
+# Makes sure that everything the build needs is there; with "test", also fonts and the browser that
+# the tests drive, with "bench", also what the comparison needs.
 # Installs missing Debian or Ubuntu packages when it may, otherwise prints the line that does.
 set -eu
 
@@ -16,6 +16,12 @@ missing() {
             command -v "$browser" >/dev/null 2>&1 && break
         done
         [ "$browser" = none ] && printf ' chromium'
+    fi
+    # The text of figures as PNG; other systems come with fonts of their own, elsewhere.
+    if [ "${1:-}" = test ] && command -v apt-get >/dev/null 2>&1; then
+        fonts=$(find /usr/share/fonts /usr/local/share/fonts "${HOME:-}/.local/share/fonts" \
+            -name '*.[ot]t[cf]' 2>/dev/null || true)
+        [ -z "$fonts" ] && printf ' fonts-dejavu-core'
     fi
     if [ "${1:-}" = bench ]; then
         python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || printf ' python3-venv'

@@ -11,6 +11,7 @@ use righting_report::{EnvelopeOutlines, envelope_svg, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::figures::Formats;
 use crate::output;
 use crate::output_folder::OutputFolder;
 
@@ -33,6 +34,8 @@ pub struct Arguments {
     /// The folder for envelope.json, envelope.svg and the meshes.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    #[command(flatten)]
+    formats: Formats,
     /// Print one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -65,6 +68,7 @@ struct PrintedWheels<'a> {
 
 /// Reads, searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let writer = arguments.formats.writer()?;
     let system = read_system_or_scenario(&arguments.file)?;
     let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
     let folder = OutputFolder::open(&arguments.out)?;
@@ -104,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         write_whole(folder.path(), name, mesh.to_obj().as_bytes())?;
     }
     let figure = figure(&system.name, &found, &wheels);
-    write_whole(folder.path(), "envelope.svg", figure.as_bytes())?;
+    writer.write(folder.path(), "envelope.svg", &figure)?;
     write_whole(folder.path(), "envelope.json", json.as_bytes())?;
     if arguments.json {
         output::print(&json)

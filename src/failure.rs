@@ -117,6 +117,12 @@ impl Failure {
             Self::Sweep(SweepError::Write { .. }) => {
                 Some("what is recorded is safe: make room, then run it again with --resume")
             }
+            Self::Report(ReportError::NoPng) => {
+                Some("build it with `cargo build --release --features png`")
+            }
+            Self::Report(ReportError::NoFonts) => {
+                Some("install some, such as Debian's fonts-dejavu-core, or leave --png out")
+            }
             Self::OutputFolder { .. } => Some("name another folder with --out"),
             Self::NoPlan { status: Status::Infeasible } => {
                 Some("a longer duration, a smaller angle or wider limits may make it possible")

@@ -130,10 +130,13 @@ impl OutputFolder {
 
     /// Removes an earlier plan, so that a solve without one leaves none that looks like its own.
     pub fn remove_earlier_plan(&self) -> Result<(), Failure> {
-        for name in ALL {
-            match std::fs::remove_file(self.folder.join(name)) {
+        let figures = ALL.into_iter().filter(|name| name.ends_with(".svg"));
+        let pngs = figures.map(|name| Path::new(name).with_extension("png"));
+        for name in ALL.into_iter().map(PathBuf::from).chain(pngs) {
+            match std::fs::remove_file(self.folder.join(&name)) {
                 Err(error) if error.kind() != ErrorKind::NotFound => {
-                    let problem = format!("{name} cannot be replaced: {}", plain(&error));
+                    let problem =
+                        format!("{} cannot be replaced: {}", name.display(), plain(&error));
                     return Err(Failure::OutputFolder { folder: self.folder.clone(), problem });
                 }
                 _ => {}

@@ -11,6 +11,7 @@ use righting_report::{PowerComparison, power_svg, power_table, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::figures::Formats;
 use crate::output;
 use crate::output_folder::{OutputFolder, POWER_FIGURE_FILE, POWER_FILE};
 
@@ -29,6 +30,8 @@ pub struct Arguments {
     /// The folder for power.json and power.svg; the plan's if not given.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    formats: Formats,
     /// Print one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -58,6 +61,7 @@ struct PrintedWheels<'a> {
 
 /// Reads, checks, computes, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let writer = arguments.formats.writer()?;
     let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
     let plan = verify_directory(&arguments.folder)?;
     let Verified { solution, scenario, trajectory, verification } = plan;
@@ -86,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let comparison = PowerComparison { profile: &profile, efficiency, wheels: &wheels };
     let json = output::to_json(&printed)?;
-    write_whole(folder.path(), POWER_FIGURE_FILE, power_svg(&solution, comparison).as_bytes())?;
+    writer.write(folder.path(), POWER_FIGURE_FILE, &power_svg(&solution, comparison))?;
     write_whole(folder.path(), POWER_FILE, json.as_bytes())?;
     if arguments.json {
         output::print(&json)?;

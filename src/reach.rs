@@ -8,11 +8,11 @@ use righting_maneuver::Scenario;
 use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_maneuver::scenario::MAX_STARTS;
 use righting_ocp::Control;
-use righting_report::{reach_summary, reach_svg, write_whole};
+use righting_report::{FigureWriter, reach_summary, reach_svg, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::figures::FigureSet;
+use crate::figures::{FigureSet, Formats};
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::output_folder::OutputFolder;
@@ -60,6 +60,8 @@ pub struct Arguments {
     /// The folder for reach.json, reach.svg and, in plan, the plan found at the edge.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    formats: Formats,
     /// Print the contents of reach.json.
     #[arg(long)]
     pub json: bool,
@@ -142,6 +144,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         starts: arguments.starts,
         ..defaults
     };
+    let writer = arguments.formats.writer()?;
     let folder = match &arguments.out {
         Some(out) => Some(OutputFolder::open(out)?),
         None => None,
@@ -155,7 +158,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     let printed = printed(&scenario, settings, &found);
     let files = match &folder {
-        Some(folder) => keep(folder, &scenario, &printed, &found, Clock { started, load })?,
+        Some(folder) => {
+            keep(folder, &writer, &scenario, &printed, &found, Clock { started, load })?
+        }
         None => Vec::new(),
     };
     if arguments.json {
@@ -226,6 +231,7 @@ struct Clock {
 /// Writes the search and the plan at its edge.
 fn keep(
     folder: &OutputFolder,
+    writer: &FigureWriter,
     scenario: &Scenario,
     printed: &Printed<'_>,
     found: &Reach,
@@ -237,7 +243,7 @@ fn keep(
         let times = Times { load, verify: *verify };
         let mut solution = assemble(scenario, plan, verification.clone(), times);
         let plan_folder = OutputFolder::open(&plan_folder)?;
-        let shown = Shown { figures: FigureSet::Usual, page: true };
+        let shown = Shown { figures: FigureSet::Usual, writer, page: true };
         let trajectory = &plan.trajectory;
         let written = write(&plan_folder, shown, scenario, &mut solution, trajectory, started)?;
         files.extend(written.paths());
@@ -245,7 +251,7 @@ fn keep(
         OutputFolder::open(&plan_folder)?.remove_earlier_plan()?;
     }
     let figure = reach_svg(scenario.resolved(), found);
-    files.push(write_whole(folder.path(), FIGURE_FILE, figure.as_bytes())?);
+    files.extend(writer.write(folder.path(), FIGURE_FILE, &figure)?);
     let mut json = serde_json::to_string_pretty(printed)
         .map_err(|error| Failure::Stdout(std::io::Error::other(error)))?;
     json.push('\n');

@@ -12,11 +12,11 @@ use righting_maneuver::{
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
-use righting_report::{report_html, summary, write_whole};
+use righting_report::{FigureWriter, report_html, summary, write_whole};
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::figures::{FigureSet, draw};
+use crate::figures::{FigureSet, Formats, draw};
 use crate::interrupt::Interrupt;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
@@ -44,6 +44,8 @@ pub struct Arguments {
     /// The figures to draw; `righting figures DIR` draws all of them later.
     #[arg(long, value_enum, value_name = "SET", default_value = "usual")]
     figures: FigureSet,
+    #[command(flatten)]
+    formats: Formats,
     /// Print the contents of solution.json and the files' paths as one JSON object.
     #[arg(long)]
     pub json: bool,
@@ -76,6 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         (None, None) => None,
     };
+    let writer = arguments.formats.writer()?;
     let folder = OutputFolder::open(&arguments.out)?;
 
     let progress = Progress::start();
@@ -90,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     plan.notes.splice(..0, note);
     progress.show_stage("verifying");
     let mut solution = checked(&scenario, &plan, load);
-    let shown = Shown { figures: arguments.figures, page: !arguments.no_report };
+    let shown = Shown { figures: arguments.figures, writer: &writer, page: !arguments.no_report };
     let files = write(&folder, shown, &scenario, &mut solution, &plan.trajectory, started)?;
     drop(progress);
 
@@ -139,9 +142,11 @@ fn conclude(solution: &Solution) -> Result<(), Failure> {
 
 /// What is written beside a plan.
 #[derive(Clone, Copy)]
-pub struct Shown {
+pub struct Shown<'a> {
     /// The figures.
     pub figures: FigureSet,
+    /// What writes them.
+    pub writer: &'a FigureWriter,
     /// Whether the interactive page.
     pub page: bool,
 }
@@ -150,7 +155,7 @@ pub struct Shown {
 /// that where it is, the rest is too.
 pub fn write(
     folder: &OutputFolder,
-    shown: Shown,
+    shown: Shown<'_>,
     scenario: &Scenario,
     solution: &mut Solution,
     trajectory: &Trajectory,
@@ -160,7 +165,7 @@ pub fn write(
     let mut files = ResultFiles::without_plan(folder);
     if solution.status.is_acceptable() {
         trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE))?;
-        let figures = draw(folder.path(), shown.figures, scenario, solution, trajectory)?;
+        let figures = draw(folder.path(), shown, scenario, solution, trajectory)?;
         let page = shown.page.then(|| report_html(scenario, solution, trajectory));
         let page = page.map(|page| write_whole(folder.path(), REPORT_FILE, page.as_bytes()));
         files = ResultFiles::of_plan(folder, figures, page.transpose()?);

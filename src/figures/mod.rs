@@ -1,5 +1,6 @@
 //! `righting figures`: draw a plan's figures again, or everything in the paper.
 
+mod formats;
 mod paper;
 mod tables;
 
@@ -15,15 +16,17 @@ use righting_maneuver::{
 };
 use righting_report::{
     PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg, momentum_svg,
-    power_svg, sparsity_svg, write_whole,
+    power_svg, sparsity_svg,
 };
 
+pub use self::formats::Formats;
 use crate::failure::Failure;
 use crate::output;
 use crate::output_folder::{
     ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
     POWER_FIGURE_FILE, SPARSITY_FILE,
 };
+use crate::solve::Shown;
 
 /// Intervals whose part of the KKT matrix is drawn.
 const SPARSITY_STEPS: usize = 4;
@@ -38,6 +41,8 @@ pub struct Arguments {
     /// The folder for the figures; the plan's own, or out/paper, if not given.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    formats: Formats,
 }
 
 /// Which figures a solve draws.
@@ -53,14 +58,16 @@ pub enum FigureSet {
 
 /// Draws what the folder is of.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Arguments { folder, out } = arguments;
+    let Arguments { folder, out, formats } = arguments;
+    let writer = formats.writer()?;
     if !folder.join(SOLUTION_FILE).exists() && folder.join(paper::FIRST_SCENARIO).exists() {
-        return paper::run(folder, out.as_deref().unwrap_or(Path::new("out/paper")));
+        return paper::run(folder, out.as_deref().unwrap_or(Path::new("out/paper")), &writer);
     }
     let Verified { solution, scenario, trajectory, verification } = verify_directory(folder)?;
     let solution = Solution { verification, ..solution };
     let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
-    let files = draw(folder.path(), FigureSet::All, &scenario, &solution, &trajectory)?;
+    let shown = Shown { figures: FigureSet::All, writer: &writer, page: false };
+    let files = draw(folder.path(), shown, &scenario, &solution, &trajectory)?;
     let listed: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
     output::print(&listed)?;
     Failure::of_verification(&solution).map_or(Ok(()), Err)
@@ -69,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Draws the figures of a plan into a folder; the files, in the order a reader wants them.
 pub fn draw(
     folder: &Path,
-    set: FigureSet,
+    Shown { figures: set, writer, .. }: Shown<'_>,
     scenario: &Scenario,
     solution: &Solution,
     trajectory: &Trajectory,
@@ -96,6 +103,9 @@ pub fn draw(
         let sparsity = kkt_sparsity(scenario, steps).map_err(PlanError::from)?;
         figures.push((SPARSITY_FILE, sparsity_svg(solution, &sparsity, steps)));
     }
-    let write = |(name, figure): (&str, String)| write_whole(folder, name, figure.as_bytes());
-    Ok(figures.into_iter().map(write).collect::<Result<_, _>>()?)
+    let mut files = Vec::new();
+    for (name, figure) in figures {
+        files.extend(writer.write(folder, name, &figure)?);
+    }
+    Ok(files)
 }

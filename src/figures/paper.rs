@@ -10,7 +10,8 @@ use righting_maneuver::{
 };
 use righting_ocp::Control;
 use righting_report::{
-    PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg, write_whole,
+    FigureWriter, PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg,
+    write_whole,
 };
 
 use super::FigureSet;
@@ -66,19 +67,19 @@ pub struct Planned {
 }
 
 /// Plans, draws and compares.
-pub fn run(scenarios: &Path, out: &Path) -> Result<(), Failure> {
+pub fn run(scenarios: &Path, out: &Path, writer: &FigureWriter) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let folder = OutputFolder::open(out)?;
     let read = |name: &str| Scenario::read(&scenarios.join(format!("{name}.json")));
     let of_systems = |kind: &str| -> Result<Vec<Planned>, Failure> {
         let plan = |system: &PaperSystem| {
-            kept(folder.path(), read(&format!("{kind}_{}", system.file))?, &interrupt)
+            kept(folder.path(), read(&format!("{kind}_{}", system.file))?, writer, &interrupt)
         };
         SYSTEMS.iter().map(plan).collect()
     };
     let slews = of_systems("slew")?;
     let detumbles = of_systems("detumble")?;
-    let large = kept(folder.path(), read("slew75_4dof")?, &interrupt)?;
+    let large = kept(folder.path(), read("slew75_4dof")?, writer, &interrupt)?;
 
     output::complain("envelopes");
     let arm = slews[1].scenario.system();
@@ -111,7 +112,7 @@ pub fn run(scenarios: &Path, out: &Path) -> Result<(), Failure> {
         power: &profile,
         trades: &trades,
     };
-    let files = [
+    let figures = [
         ("fig4_slews.svg", maneuvers_svg("The paper's slews of 20° in 30 s", &pairs(&slews))),
         (
             "fig5_detumbles.svg",
@@ -120,11 +121,17 @@ pub fn run(scenarios: &Path, out: &Path) -> Result<(), Failure> {
         ("fig7_envelopes.svg", envelope::figure(&arm.name, &found, &wheels)),
         ("fig8_power.svg", power_svg(&slew.solution, power)),
         ("fig8_power_by_duration.svg", power_trade_svg(&trades)),
+    ];
+    let tables = [
         ("table1.md", tables::systems(&slews)),
         ("comparison.md", tables::comparison(&comparison)),
     ];
-    for (name, contents) in &files {
-        write_whole(folder.path(), name, contents.as_bytes())?;
+    let mut files = Vec::new();
+    for (name, figure) in &figures {
+        files.extend(writer.write(folder.path(), name, figure)?);
+    }
+    for (name, table) in &tables {
+        files.push(write_whole(folder.path(), name, table.as_bytes())?);
     }
     output::print(&tables::comparison(&comparison))?;
     output::complain(&format!(
@@ -153,12 +160,17 @@ fn planned(scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure
 }
 
 /// The plan of a scenario, kept in a folder of its own within `out`.
-fn kept(out: &Path, scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure> {
+fn kept(
+    out: &Path,
+    scenario: Scenario,
+    writer: &FigureWriter,
+    interrupt: &Interrupt,
+) -> Result<Planned, Failure> {
     let started = Instant::now();
     let mut planned = planned(scenario, interrupt)?;
     let Planned { scenario, solution, trajectory } = &mut planned;
     let folder = OutputFolder::open(&out.join(scenario.name()))?;
-    let shown = Shown { figures: FigureSet::All, page: true };
+    let shown = Shown { figures: FigureSet::All, writer, page: true };
     solve::write(&folder, shown, scenario, solution, trajectory, started)?;
     Ok(planned)
 }

@@ -49,6 +49,63 @@ fn a_solve_draws_as_much_as_is_asked() {
     assert_eq!(["all", "none", "usual"].map(solve), [6, 0, 5]);
 }
 
+/// Width and height of an SVG, and of a PNG by its header.
+#[cfg(feature = "png")]
+fn sizes(svg: &std::path::Path) -> [[u32; 2]; 2] {
+    let text = std::fs::read_to_string(svg).expect("an SVG");
+    let side = |name: &str| {
+        let (_, rest) = text.split_once(&format!(" {name}=\"")).expect("an SVG has a size");
+        rest.split('"').next().and_then(|value| value.parse().ok()).expect("a number of pixels")
+    };
+    let png = std::fs::read(svg.with_extension("png")).expect("a PNG beside it");
+    assert_eq!(png[..16], *b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR");
+    let word = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().expect("four bytes"));
+    [[side("width"), side("height")], [word(16), word(20)]]
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn every_figure_has_its_png_where_asked() {
+    let folder = folder_with(&small_slew());
+    let arguments = ["solve", "scenario.json", "--out", "out", "--png", "--json"];
+    let run = righting(folder.path(), &arguments);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let out = folder.path().join("out");
+    for name in &FIGURES[..5] {
+        let [[width, height], png] = sizes(&out.join(name));
+        assert_eq!(png, [2 * width, 2 * height], "{name}");
+    }
+    assert_eq!(run.json()["files"]["figures"].as_array().map(Vec::len), Some(10));
+    for (arguments, figure) in [
+        (&["figures", "out", "--out", "drawn", "--png"][..], "sparsity.svg"),
+        (&["power", "out", "--out", "costs", "--png"], "power.svg"),
+        (
+            &["envelope", "scenario.json", "--samples", "20", "--out", "seen", "--png"],
+            "envelope.svg",
+        ),
+    ] {
+        let run = righting(folder.path(), arguments);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+        let out = arguments.iter().skip_while(|argument| **argument != "--out").nth(1);
+        let [[width, height], png] = sizes(&folder.path().join(out.expect("given")).join(figure));
+        assert_eq!(png, [2 * width, 2 * height], "{figure}");
+    }
+
+    // Those of an earlier plan do not outlive it.
+    assert_eq!(solve(folder.path()).code, 0);
+    assert!(files_in(&out).iter().all(|name| !name.ends_with(".png")));
+}
+
+#[cfg(not(feature = "png"))]
+#[test]
+fn a_build_without_png_says_how_to_get_one() {
+    let folder = folder_with(&small_slew());
+    let run = righting(folder.path(), &["solve", "scenario.json", "--out", "out", "--png"]);
+    run.assert_refused("this build draws no PNG");
+    assert!(run.stderr.contains("--features png"), "{}", run.stderr);
+    assert!(!folder.path().join("out").exists());
+}
+
 #[test]
 fn what_is_no_plan_has_no_figures() {
     let folder = folder_with(&small_slew());

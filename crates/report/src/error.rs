@@ -33,6 +33,20 @@ pub enum ReportError {
         /// Its first time.
         epoch: String,
     },
+    /// A figure could not be drawn as PNG.
+    #[error("cannot draw {}: {problem}", path.display())]
+    Png {
+        /// The file it was for.
+        path: PathBuf,
+        /// What is in the way.
+        problem: String,
+    },
+    /// PNGs are asked of a build that does not draw them.
+    #[error("this build draws no PNG")]
+    NoPng,
+    /// PNGs are asked of a machine that has nothing to draw text with.
+    #[error("cannot draw PNG: this machine has no fonts")]
+    NoFonts,
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),
