@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use righting_maneuver::files;
-use righting_report::{errors_svg, slew_limits_svg, slews_svg};
+use righting_report::{errors_svg, slew_limits_svg, slews_html, slews_svg};
 use righting_sweep::{CaseStatus, Slews, Summary, SweepFolder, Table};
 
 use super::show;
@@ -51,6 +51,8 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
         if slews.columns.iter().any(|column| column.field == "maneuver.axis") {
             let figure = slews_svg(&summary.sweep, slews);
             write("slews.svg", &|writer| writer.write_all(figure.as_bytes()))?;
+            let page = slews_html(&summary.sweep, slews);
+            write("slews.html", &|writer| writer.write_all(page.as_bytes()))?;
         }
         if let Some(figure) = slew_limits_svg(&summary.sweep, slews) {
             write("slew_limits.svg", &|writer| writer.write_all(figure.as_bytes()))?;

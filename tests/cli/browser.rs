@@ -117,7 +117,12 @@ impl Browser {
 
     /// Presses and lets go the mouse at a part (0 to 1, from the left) of an element's width.
     pub fn click(&mut self, selector: &str, part: f64) {
-        let [x, y] = self.place(selector, part);
+        let place = self.place(selector, part);
+        self.click_at(place);
+    }
+
+    /// Presses and lets go the mouse at a place in the window.
+    pub fn click_at(&mut self, [x, y]: [f64; 2]) {
         for kind in ["mousePressed", "mouseReleased"] {
             let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
             self.call("Input.dispatchMouseEvent", event);

@@ -1,10 +1,11 @@
 //! The interactive page, in a browser.
 
 use righting_maneuver::{Node, Scenario, verify_directory};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::browser::Browser;
 use crate::program::{files_in, folder_with, righting, small_detumble, small_slew, solve};
+use crate::sweep::{folder_with_sweep, results, small_sweep, sweep};
 use crate::verify::{add, tamper};
 
 const DESKTOP: [u32; 2] = [900, 600];
@@ -117,6 +118,41 @@ fn the_page_works_on_a_phone() {
     page.swipe("#time", 80.0);
     assert!(page.value("righting.state().time_s").as_f64().is_some_and(|time| time > 5.0));
     assert_eq!(page.complaints(), [] as [String; 0]);
+}
+
+#[test]
+fn the_page_of_a_sweep_draws_every_case_and_says_which_is_which() {
+    let mut mixed = small_sweep(2);
+    mixed["vary"][1] = json!({ "zip": [
+        { "field": "maneuver.angle_deg", "values": [1, 3, 5] },
+        { "field": "solver.max_iterations", "values": [100, 101, 1] }
+    ] });
+    let folder = folder_with_sweep(&mixed);
+    assert_eq!(sweep(folder.path(), "out", &[]).code, 0);
+    let rows = results(folder.path(), "out");
+    let cases = &rows[1..];
+    assert_eq!(cases.iter().filter(|row| row.contains("iteration_limit")).count(), 2);
+    for size in [DESKTOP, PHONE] {
+        let mut page = Browser::open(&folder.path().join("out/slews.html"), size);
+        assert_eq!(page.value("document.title"), "small");
+        assert_eq!(page.value("document.documentElement.scrollWidth <= innerWidth"), true);
+        page.wait_until("slews.state().drawn > 0");
+        assert_eq!(page.value("slews.state().drawn"), cases.len());
+        for (i, case) in cases.iter().enumerate() {
+            let place = numbers(&page.value(&format!("slews.place({i})")));
+            page.click_at([place[0], place[1]]);
+            let card = page.value("document.querySelector('#card').innerText");
+            let card = card.as_str().expect("text");
+            let id = case.split(',').next().expect("a column");
+            assert!(card.contains(id), "{id}: {card}");
+            let fails = case.contains("iteration_limit");
+            assert_eq!(card.contains("iteration_limit, failed"), fails, "{card}");
+        }
+        let by_outcome = page.picture("#view");
+        page.click("#color-objective", 0.5);
+        assert_ne!(page.picture("#view"), by_outcome, "the colours are the same");
+        assert_eq!(page.complaints(), [] as [String; 0]);
+    }
 }
 
 #[test]

@@ -52,8 +52,15 @@ fn every_case_is_planned_verified_recorded_and_summed_up() {
     assert_eq!(summary["statuses"], json!({ "solved": 6 }));
     assert!(summary["attitude_error"]["max"].as_f64().is_some_and(|error| error <= 1e-3));
     let files = files_in(&folder.path().join("out"));
-    let expected =
-        ["records", "results.csv", "slew_limits.csv", "slews.svg", "summary.json", "sweep.json"];
+    let expected = [
+        "records",
+        "results.csv",
+        "slew_limits.csv",
+        "slews.html",
+        "slews.svg",
+        "summary.json",
+        "sweep.json",
+    ];
     assert_eq!(files, expected);
     let limits = std::fs::read_to_string(folder.path().join("out/slew_limits.csv"))
         .expect("how far slews go");

@@ -1,4 +1,4 @@
-// Bundles the page into dist/, which is committed: building the program needs no Node.
+// Bundles the pages into dist/, which is committed: building the program needs no Node.
 // `node build.mjs` writes, `node build.mjs --check` compares with what is there.
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -27,7 +27,7 @@ const banner = `/*! Generated from sources ${digest.digest("hex")} */`;
 
 const { outputFiles } = await build({
   absWorkingDir: root,
-  entryPoints: ["src/report.ts"],
+  entryPoints: ["src/report.ts", "src/slews.ts"],
   outdir: "dist",
   bundle: true,
   minify: true,

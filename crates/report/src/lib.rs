@@ -70,7 +70,7 @@ pub use maneuvers::maneuvers_svg;
 pub use momentum::momentum_svg;
 pub use npz::npz;
 pub use number::short;
-pub use page::report_html;
+pub use page::{report_html, slews_html};
 pub use power::{PowerComparison, power_svg, power_table};
 pub use power_trade::{PowerTrade, power_trade_svg};
 pub use reach::reach_svg;

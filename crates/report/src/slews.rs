@@ -28,11 +28,7 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
     let width = 2.0 * (style::MARGIN + SIDE) + GAP;
     let top = style::MARGIN + style::TITLE_SIZE + style::LABEL_SIZE + 22.0;
     let height = top + SIDE + LEGEND_HEIGHT;
-    let succeeded = slews.points.iter().filter(|slew| slew.succeeded).count();
-    let subtitle = format!(
-        "{succeeded} of {} slews succeed, each verified: rotation vector \u{3b8}\u{b7}n\u{302}, body axes, degrees",
-        slews.points.len()
-    );
+    let subtitle = subtitle(slews);
     let mut svg = Svg::new(width, height, name, &subtitle);
     let base = style::MARGIN + style::TITLE_SIZE;
     let left = style::MARGIN;
@@ -40,9 +36,7 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
     let base = base + style::LABEL_SIZE + 7.0;
     svg.text([left, base], Anchor::Start, style::LABEL_SIZE, style::FAINT_INK, &subtitle);
 
-    let costs = slews.points.iter().filter(|slew| slew.succeeded && slew.objective > 0.0);
-    let costs = Range::of(costs.map(|slew| slew.objective.log10()));
-    let costs = costs.unwrap_or(Range { low: 0.0, high: 0.0 }).padded(1e-6);
+    let costs = costs(slews);
     let largest = slews.points.iter().map(|slew| slew.angle_deg.abs()).fold(1e-9, f64::max);
     for (i, eye) in EYES.into_iter().enumerate() {
         let center = [left + 0.5 * SIDE + i as f64 * (SIDE + GAP), top + 0.5 * SIDE];
@@ -52,6 +46,22 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
     }
     draw_legend(&mut svg, [left, top + SIDE + 18.0], width - 2.0 * style::MARGIN, costs);
     svg.finish()
+}
+
+/// How many succeed, and what is shown.
+pub(crate) fn subtitle(slews: &Slews) -> String {
+    let succeeded = slews.points.iter().filter(|slew| slew.succeeded).count();
+    format!(
+        "{succeeded} of {} slews succeed, each verified: rotation vector \u{3b8}\u{b7}n\u{302}, body axes, degrees",
+        slews.points.len()
+    )
+}
+
+/// Decimal logarithms of the objectives of slews that succeed.
+pub(crate) fn costs(slews: &Slews) -> Range {
+    let costs = slews.points.iter().filter(|slew| slew.succeeded && slew.objective > 0.0);
+    let costs = Range::of(costs.map(|slew| slew.objective.log10()));
+    costs.unwrap_or(Range { low: 0.0, high: 0.0 }).padded(1e-6)
 }
 
 /// A parallel projection.

@@ -1,7 +1,7 @@
 //! Figures of sweeps: of well-formed XML, with a mark a slew.
 
-use righting_report::{errors_svg, slew_limits_svg, slews_svg};
-use righting_sweep::{CaseId, Column, Kind, SlewLimit, SlewPoint, Slews};
+use righting_report::{errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_sweep::{CaseId, CaseStatus, Column, Flown, Kind, SlewLimit, SlewPoint, Slews};
 use serde_json::json;
 
 fn count(svg: &str, tag: &str) -> usize {
@@ -28,6 +28,8 @@ fn slews() -> Slews {
                     axis,
                     angle_deg,
                     succeeded: !(fails && angle_deg == 20.0),
+                    status: CaseStatus::Flown(Flown::Flown),
+                    attitude_error: f64::NAN,
                     objective: 1e-6 * angle_deg,
                     limit: slews.limits.len(),
                 });
@@ -53,6 +55,16 @@ fn every_slew_is_a_disc_or_a_cross_in_both_views() {
     let mut none = slews();
     none.points.clear();
     assert_eq!(count(&slews_svg("none", &none), "circle"), 0);
+}
+
+#[test]
+fn a_name_cannot_end_the_element_it_stands_in() {
+    let page = slews_html("</title></script><script>alert(1)", &slews());
+    let harmless = slews_html("harmless", &slews());
+    for end in ["</title", "</script", "<script"] {
+        assert_eq!(page.matches(end).count(), harmless.matches(end).count(), "{end}");
+    }
+    assert!(page.contains("\"attitude_error_deg\":null"));
 }
 
 #[test]

@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::case::CaseId;
 use crate::cells::{cells_of, heads_of};
 use crate::dimension::Column;
+use crate::outcome::CaseStatus;
 use crate::table::Table;
 
 const ANGLE: &str = "maneuver.angle_deg";
@@ -35,6 +36,10 @@ pub struct SlewPoint {
     pub angle_deg: f64,
     /// Whether it does what was asked, verified.
     pub succeeded: bool,
+    /// How it ended.
+    pub status: CaseStatus,
+    /// Norm of the vector part of the attitude error quaternion at the end; not finite without a result.
+    pub attitude_error: f64,
     /// Value of the objective.
     pub objective: f64,
     /// Which of the [`Slews::limits`] it counts for.
@@ -98,6 +103,8 @@ impl Slews {
                 axis,
                 angle_deg,
                 succeeded: row.succeeded(),
+                status: row.status,
+                attitude_error: row.attitude_error,
                 objective: row.objective,
                 limit,
             });

@@ -29,7 +29,7 @@ function circle(radius: number, axis: Vector3, share: number): Vector3[] {
   });
 }
 
-/** Meridians and parallels of the inertial frame, every 30°. */
+/** Meridians and parallels of a sphere about the origin, every 30°. */
 export function graticule(radius: number): Group {
   const group = new Group();
   const step = Math.PI / 6;
@@ -45,15 +45,20 @@ export function graticule(radius: number): Group {
   return group;
 }
 
+/** A sphere about the origin as its circles in the planes of the axes. */
+export function rings(radius: number, stroke: Stroke): Group {
+  const group = new Group();
+  for (const axis of UNIT) group.add(polyline(circle(radius, axis, 0), stroke));
+  return group;
+}
+
 /** The sphere that links keep out of. */
 export function keepOut(radius: number): Group {
   const material = new MeshBasicMaterial({ transparent: true, opacity: 0.07, depthWrite: false });
   painted(() => material.color.set(color("keep-out")));
   const group = new Group();
   group.add(new Mesh(new SphereGeometry(radius, 48, 32), material));
-  for (const axis of UNIT) {
-    group.add(polyline(circle(radius, axis, 0), { color: "keep-out", width: 1, opacity: 0.3 }));
-  }
+  group.add(rings(radius, { color: "keep-out", width: 1, opacity: 0.3 }));
   return group;
 }
 

@@ -67,34 +67,50 @@ export class Strut {
   }
 }
 
-/** A letter with an index that faces the reader, as large near as far. */
-export function label(letter: string, index: string, name: string): Sprite {
+type Write = (text: string, height: number, x: number, y: number) => void;
+
+/** Text that faces the reader, as large near as far; heights and places in parts of its own height. */
+function written(aspect: number, name: string, text: (write: Write) => void): Sprite {
   const size = 64;
   const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = size;
+  [canvas.width, canvas.height] = [aspect * size, size];
   const material = new SpriteMaterial({ sizeAttenuation: false, depthTest: false });
   const sprite = new Sprite(material);
-  sprite.scale.setScalar(0.036);
+  sprite.scale.set(0.036 * aspect, 0.036, 1);
   sprite.renderOrder = 10;
   painted(() => {
     const context = canvas.getContext("2d");
     if (!context) return;
-    context.clearRect(0, 0, size, size);
+    context.clearRect(0, 0, canvas.width, canvas.height);
     context.lineWidth = 7;
     context.lineJoin = "round";
     context.strokeStyle = color("scene");
     context.fillStyle = color(name);
-    const write = (text: string, height: number, x: number, y: number) => {
+    text((text, height, x, y) => {
       context.font = `600 ${height * size}px system-ui, sans-serif`;
       context.strokeText(text, x * size, y * size);
       context.fillText(text, x * size, y * size);
-    };
-    write(letter, 0.6, 0.18, 0.64);
-    write(index, 0.34, 0.56, 0.8);
+    });
     material.map?.dispose();
     material.map = new CanvasTexture(canvas);
     material.map.colorSpace = SRGBColorSpace;
     material.needsUpdate = true;
   });
+  return sprite;
+}
+
+/** A letter with an index. */
+export function label(letter: string, index: string, name: string): Sprite {
+  return written(1, name, (write) => {
+    write(letter, 0.6, 0.18, 0.64);
+    write(index, 0.34, 0.56, 0.8);
+  });
+}
+
+/** A few small characters that start where they are put, behind what is in front of them. */
+export function caption(text: string, name: string): Sprite {
+  const sprite = written(2, name, (write) => write(text, 0.32, 0.1, 0.62));
+  sprite.center.set(0, 0.5);
+  sprite.material.depthTest = true;
   return sprite;
 }

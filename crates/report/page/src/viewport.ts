@@ -52,6 +52,11 @@ export class Viewport {
     });
   }
 
+  /** Points that the last drawing sent to the screen. */
+  drawnPoints(): number {
+    return this.renderer.info.render.points;
+  }
+
   /** Moves what is looked at, and how far from, without turning. */
   fit(center: Vector3, radius: number): void {
     const away = this.camera.position.clone().sub(this.controls.target);

@@ -1,11 +1,14 @@
-//! `report.html`: the maneuver to look at, in one file that needs nothing else.
+//! `report.html`, the maneuver to look at, and `slews.html`, a sweep: files that need nothing else.
 
 mod columns;
 mod data;
+mod slews;
 
 use righting_maneuver::{Scenario, Solution, Trajectory};
+use serde::Serialize;
 
 use data::PageData;
+pub use slews::slews_html;
 
 const TEMPLATE: &str = include_str!("../../page/report.html");
 const SCRIPT: &str = include_str!("../../page/dist/report.js");
@@ -17,12 +20,15 @@ const STYLE: &str = include_str!("../../page/dist/report.css");
 /// `scenario` is that of the solution. Of a plan with more than a thousand intervals, evenly chosen
 /// nodes are shown.
 pub fn report_html(scenario: &Scenario, solution: &Solution, trajectory: &Trajectory) -> String {
-    let data = PageData::new(scenario, solution, trajectory);
-    let data = serde_json::to_string(&data).expect("plain structs of text and numbers become JSON");
-    // Within a script element only the character that could end it matters.
-    let data = data.replace('<', "\\u003c");
+    let data = in_script(&PageData::new(scenario, solution, trajectory));
     let title = escaped(scenario.name());
     fill(TEMPLATE, &[("title", &title), ("style", STYLE), ("data", &data), ("script", SCRIPT)])
+}
+
+/// JSON that may stand in a script element, where only the character that could end it matters.
+fn in_script(data: &impl Serialize) -> String {
+    let data = serde_json::to_string(data).expect("plain structs of text and numbers become JSON");
+    data.replace('<', "\\u003c")
 }
 
 /// Puts each part where the template has its name in double braces.
@@ -59,16 +65,20 @@ mod tests {
 
     #[test]
     fn nothing_in_the_bundle_ends_its_element() {
-        for forbidden in ["</script", "<!--"] {
-            assert!(!SCRIPT.to_lowercase().contains(forbidden), "{forbidden}");
+        for script in [SCRIPT, slews::SCRIPT] {
+            for forbidden in ["</script", "<!--"] {
+                assert!(!script.to_lowercase().contains(forbidden), "{forbidden}");
+            }
         }
-        assert!(!STYLE.to_lowercase().contains("</style"));
+        for style in [STYLE, slews::STYLE] {
+            assert!(!style.to_lowercase().contains("</style"));
+        }
     }
 
     #[test]
     fn the_bundle_keeps_the_licences_of_what_is_in_it() {
         for part in ["three.js authors", "Leon Sorokin", "Permission is hereby granted"] {
-            assert!(SCRIPT.contains(part), "{part}");
+            assert!(SCRIPT.contains(part) && slews::SCRIPT.contains(part), "{part}");
         }
     }
 
@@ -89,7 +99,7 @@ mod tests {
             digest.update(std::fs::read(folder.join(&file)).expect("readable"));
         }
         let digest: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        for bundle in [SCRIPT, STYLE] {
+        for bundle in [SCRIPT, STYLE, slews::SCRIPT, slews::STYLE] {
             let made_from = bundle.lines().next().unwrap_or_default();
             assert!(made_from.contains(&digest), "the bundle is stale: run `make page`");
         }

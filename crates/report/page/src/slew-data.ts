@@ -1,0 +1,25 @@
+/** What the program writes into the page of a sweep: crates/report/src/page/slews.rs, field by field. */
+export interface SlewsData {
+  name: string;
+  subtitle: string;
+  points: SlewPoint[];
+  /** Colours from the least objective to the largest, evenly over its logarithm. */
+  ramp: string[];
+  /** Decimal logarithms. */
+  objective: { low: number; high: number; ticks: { share: number; label: string }[] };
+}
+
+export interface SlewPoint {
+  case_id: string;
+  /** Unit vector, body axes. */
+  axis: [number, number, number];
+  angle_deg: number;
+  status: string;
+  succeeded: boolean;
+  attitude_error_deg: number | null;
+  objective: number | null;
+}
+
+export function readSlews(): SlewsData {
+  return JSON.parse(document.getElementById("data")?.textContent ?? "null") as SlewsData;
+}
