@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes the results of the records that there are, and prints their summary.
 pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     let table = Table::read(folder)?;
-    let slews = Slews::of(&table);
+    let slews = Slews::of(&table, Slews::MOST_POINTS);
     let summary = Summary::of(&table, slews.as_ref());
     let mut files: Vec<PathBuf> = Vec::new();
     let mut write = |name: &str, print: &dyn Fn(&mut (dyn Write + Send)) -> io::Result<()>| {

@@ -23,7 +23,8 @@ pub struct Arguments {
 /// Reads and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let table = Table::read(&SweepFolder::at(&arguments.folder))?;
-    print(&Summary::of(&table, Slews::of(&table).as_ref()), &[], arguments.json)
+    let slews = Slews::of(&table, 0);
+    print(&Summary::of(&table, slews.as_ref()), &[], arguments.json)
 }
 
 /// Prints a summary and which files hold the rest.

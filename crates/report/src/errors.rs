@@ -6,6 +6,9 @@ use crate::number::short;
 use crate::style;
 use crate::svg::Stroke;
 
+/// More steps than these are finer than the figure.
+const MOST_STEPS: usize = 2000;
+
 /// The figure of the attitude errors at the end of plans flown open loop, as an SVG document: the share
 /// of flights (percent) that end within an angle. `errors_deg` in any order. None if there are none.
 pub fn errors_svg(name: &str, errors_deg: &[f64]) -> Option<String> {
@@ -33,12 +36,16 @@ pub fn errors_svg(name: &str, errors_deg: &[f64]) -> Option<String> {
     for (angle, percent) in [(median, 50.0), (most, 95.0)] {
         chart.curve(&[[0.0, percent], [angle, percent], [angle, 0.0]], rule);
     }
-    let mut steps = vec![[0.0, 0.0]];
-    for (i, &error) in errors.iter().enumerate() {
-        let share = |count: usize| 100.0 * count as f64 / errors.len() as f64;
-        steps.extend([[error, share(i)], [error, share(i + 1)]]);
+    let count = errors.len();
+    let steps = count.min(MOST_STEPS);
+    let rank = |step: usize| step * count / steps;
+    let share = |step: usize| 100.0 * rank(step) as f64 / count as f64;
+    let mut stairs = vec![[0.0, 0.0]];
+    for step in 1..=steps {
+        let error = errors[rank(step) - 1];
+        stairs.extend([[error, share(step - 1)], [error, share(step)]]);
     }
     let curve = Stroke { color: style::Z, width: style::CURVE_WIDTH, dash: "" };
-    chart.curve(&steps, curve);
+    chart.curve(&stairs, curve);
     Some(chart.svg.finish())
 }

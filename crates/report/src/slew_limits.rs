@@ -10,13 +10,15 @@ use crate::svg::Stroke;
 
 /// More values than these are averaged over instead.
 const MOST_CURVES: usize = COLORS.len();
+/// Of more values on the horizontal axis, neighbours are drawn as one.
+const MOST_PLACES: usize = 100;
 /// Colours of the curves.
 const COLORS: [&str; 5] = [style::MAGNITUDE, style::Z, style::Y, style::X, style::W];
 
 /// The figure of a sweep over slew angles and one or two numbers more, as an SVG document: the largest
 /// angle up to which all succeed, over the number that varies last, one curve a value of the one before.
-/// Curves are means over everything else (such as axes), bars the least and the most. None if no number
-/// varies.
+/// Curves are means over everything else (such as axes), bars the least and the most; of more than 100
+/// values that vary last, such as random ones, neighbours are put together. None if no number varies.
 pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
     let varying = |&(i, _): &(usize, _)| !distinct(slews, i).is_empty();
     let numbers: Vec<(usize, &righting_sweep::Column)> = slews
@@ -29,14 +31,17 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
     let (&(x_at, x_column), rest) = numbers.split_last()?;
     let few = |&(at, _): &(usize, _)| distinct(slews, at).len() <= MOST_CURVES;
     let series = rest.last().copied().filter(few);
-    let xs = Range::of(distinct(slews, x_at))?.padded(1e-9);
+    let all_xs = distinct(slews, x_at);
+    let together = all_xs.len().div_ceil(MOST_PLACES);
+    let xs = Range::of(all_xs.iter().copied())?.padded(1e-9);
     let highest = slews.limits.iter().map(|limit| limit.all_up_to_deg).fold(1.0, f64::max);
-    let labels = Labels {
-        title: name,
-        subtitle: "Largest angle up to which all slews succeed: mean, least and most over the rest",
-        x: &x_column.name,
-        y: "Angle [deg]",
-    };
+    let mut subtitle =
+        "Largest angle up to which all slews succeed: mean, least and most over the rest"
+            .to_owned();
+    if together > 1 {
+        subtitle += &format!(" and {together} values next to each other");
+    }
+    let labels = Labels { title: name, subtitle: &subtitle, x: &x_column.name, y: "Angle [deg]" };
     let mut chart = Chart::new(&labels, xs, Range { low: 0.0, high: 1.06 * highest });
     let values = series.map_or(vec![f64::NAN], |(at, _)| distinct(slews, at));
     let mut named = 0.0;
@@ -45,12 +50,22 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
         let of_series =
             |limit: &&SlewLimit| series.is_none_or(|(at, _)| number(limit, at) == *value);
         let shift = xs.span() * 0.006 * (i as f64 - 0.5 * (values.len() - 1) as f64);
+        let mut reached: Vec<[f64; 2]> = slews
+            .limits
+            .iter()
+            .filter(of_series)
+            .map(|limit| [number(limit, x_at), limit.all_up_to_deg])
+            .collect();
+        reached.sort_by(|[a, _], [b, _]| a.total_cmp(b));
         let mut points = Vec::new();
-        for x in distinct(slews, x_at) {
-            let limits = slews.limits.iter().filter(of_series).filter(|l| number(l, x_at) == x);
-            let angles: Vec<f64> = limits.map(|limit| limit.all_up_to_deg).collect();
-            let Some(range) = Range::of(angles.iter().copied()) else { continue };
-            points.push([x + shift, angles.iter().sum::<f64>() / angles.len() as f64]);
+        for place in all_xs.chunks(together) {
+            let (from, to) = (place[0], place[place.len() - 1]);
+            let x = 0.5 * (from + to);
+            let first = reached.partition_point(|[x, _]| *x < from);
+            let end = reached.partition_point(|[x, _]| *x <= to);
+            let angles = reached[first..end].iter().map(|[_, angle]| *angle);
+            let Some(range) = Range::of(angles.clone()) else { continue };
+            points.push([x + shift, angles.sum::<f64>() / (end - first) as f64]);
             let bar = Stroke { color: style::FRAME, width: style::HAIR_WIDTH, dash: "" };
             chart.curve(&[[x + shift, range.low], [x + shift, range.high]], bar);
         }

@@ -44,17 +44,30 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
         view.draw_sphere(&mut svg, largest);
         view.draw_slews(&mut svg, slews, costs, largest);
     }
-    draw_legend(&mut svg, [left, top + SIDE + 18.0], width - 2.0 * style::MARGIN, costs);
+    let legend = [left, top + SIDE + 18.0];
+    draw_legend(&mut svg, legend, width - 2.0 * style::MARGIN, costs, sample(slews).as_deref());
     svg.finish()
 }
 
 /// How many succeed, and what is shown.
 pub(crate) fn subtitle(slews: &Slews) -> String {
-    let succeeded = slews.points.iter().filter(|slew| slew.succeeded).count();
+    let Slews { succeeded, recorded, .. } = slews;
     format!(
-        "{succeeded} of {} slews succeed, each verified: rotation vector \u{3b8}\u{b7}n\u{302}, body axes, degrees",
-        slews.points.len()
+        "{succeeded} of {recorded} slews succeed, each verified: rotation vector \u{3b8}\u{b7}n\u{302}, body axes, degrees"
     )
+}
+
+/// How many of them are shown, if not all.
+pub(crate) fn sample(slews: &Slews) -> Option<String> {
+    let Slews { recorded, succeeded, points, .. } = slews;
+    let won = points.iter().filter(|slew| slew.succeeded).count();
+    let failed = points.len() - won;
+    (points.len() < *recorded).then(|| {
+        format!(
+            "drawn: {won} of {succeeded} that succeed, {failed} of {} that failed",
+            recorded - succeeded
+        )
+    })
 }
 
 /// Decimal logarithms of the objectives of slews that succeed.
@@ -135,7 +148,8 @@ impl View {
                 let edge = Stroke { color: style::PAPER, width: 0.5, dash: "" };
                 svg.dot([x, y], (10.0 * size).round() / 10.0, &style::ramp(share), edge);
             } else {
-                let stroke = Stroke { color: style::X, width: style::CURVE_WIDTH, dash: "" };
+                let width = style::CURVE_WIDTH * (10.0 * size / POINT).round().min(10.0) / 10.0;
+                let stroke = Stroke { color: style::X, width, dash: "" };
                 svg.line([x - size, y - size], [x + size, y + size], stroke);
                 svg.line([x - size, y + size], [x + size, y - size], stroke);
             }
@@ -144,7 +158,13 @@ impl View {
 }
 
 /// What the colours and the crosses mean.
-fn draw_legend(svg: &mut Svg, [left, top]: [f64; 2], width: f64, costs: Range) {
+fn draw_legend(
+    svg: &mut Svg,
+    [left, top]: [f64; 2],
+    width: f64,
+    costs: Range,
+    sample: Option<&str>,
+) {
     const STEPS: usize = 64;
     let bar = 0.5 * width;
     let cell = bar / STEPS as f64;
@@ -164,4 +184,8 @@ fn draw_legend(svg: &mut Svg, [left, top]: [f64; 2], width: f64, costs: Range) {
     svg.line([x - 4.0, top + 1.0], [x + 4.0, top + 9.0], stroke);
     svg.line([x - 4.0, top + 9.0], [x + 4.0, top + 1.0], stroke);
     svg.text([x + 12.0, top + 9.0], Anchor::Start, style::SMALL_SIZE, style::INK, "failed");
+    if let Some(sample) = sample {
+        let at = [x - 4.0, top + 24.0];
+        svg.text(at, Anchor::Start, style::SMALL_SIZE, style::FAINT_INK, sample);
+    }
 }

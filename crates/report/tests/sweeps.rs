@@ -18,7 +18,8 @@ fn slews() -> Slews {
         kind,
     };
     let columns = vec![column("axis", Kind::Vector(3)), column("time<s>", Kind::Number)];
-    let mut slews = Slews { points: Vec::new(), columns, limits: Vec::new() };
+    let (points, limits) = (Vec::new(), Vec::new());
+    let mut slews = Slews { recorded: 12, succeeded: 11, points, columns, limits };
     for axis in [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8]] {
         for time_s in [10, 20, 30] {
             let fails = axis[0] == 0.0 && time_s == 30;
@@ -31,7 +32,6 @@ fn slews() -> Slews {
                     status: CaseStatus::Flown(Flown::Flown),
                     attitude_error: f64::NAN,
                     objective: 1e-6 * angle_deg,
-                    limit: slews.limits.len(),
                 });
             }
             slews.limits.push(SlewLimit {
@@ -52,9 +52,20 @@ fn every_slew_is_a_disc_or_a_cross_in_both_views() {
     let svg = slews_svg("a & b", &slews());
     assert_eq!(count(&svg, "circle"), 2 * 11);
     assert!(svg.contains("11 of 12 slews succeed"), "{svg}");
+    assert!(!svg.contains("drawn"), "{svg}");
     let mut none = slews();
     none.points.clear();
     assert_eq!(count(&slews_svg("none", &none), "circle"), 0);
+}
+
+#[test]
+fn figure_and_page_say_that_they_show_a_sample() {
+    let mut some = slews();
+    (some.recorded, some.succeeded) = (1_000_000, 980_000);
+    for shown in [slews_svg("many", &some), slews_html("many", &some)] {
+        assert!(shown.contains("980000 of 1000000 slews succeed"));
+        assert!(shown.contains("drawn: 11 of 980000 that succeed, 1 of 20000 that failed"));
+    }
 }
 
 #[test]
@@ -77,11 +88,29 @@ fn limits_are_drawn_over_the_number_that_varies() {
 }
 
 #[test]
+fn limits_of_many_random_values_are_put_together() {
+    let mut many = slews();
+    let settings = |time: usize| vec![json!([1, 0, 0]), json!(time)];
+    let limit = |time| SlewLimit {
+        settings: settings(time),
+        all_up_to_deg: time as f64,
+        ..many.limits[0].clone()
+    };
+    many.limits = (1..=5000).rev().map(limit).collect();
+    let svg = slew_limits_svg("limits", &many).expect("a number varies");
+    assert_eq!(count(&svg, "circle"), 100);
+    assert!(svg.contains("over the rest and 50 values next to each other"), "{svg}");
+}
+
+#[test]
 fn errors_are_summed_up_by_their_quantiles() {
     let errors: Vec<f64> = (1..=100).map(|i| 0.01 * f64::from(i)).collect();
     let svg = errors_svg("errors", &errors).expect("there are some");
     assert!(svg.contains("half end within 0.5°, 95 % within 0.95°, all within 1°"), "{svg}");
     assert_eq!(count(&svg, "svg"), 1);
     assert_eq!(errors_svg("errors", &[f64::NAN]), None);
+    let many: Vec<f64> = (1..=100_001).map(|i| 1e-5 * f64::from(i)).collect();
+    let svg = errors_svg("errors", &many).expect("there are some");
+    assert!(svg.contains("100001 plans") && svg.len() < 100_000, "{}", svg.len());
     assert!(errors_svg("errors", &[0.0, 0.0]).is_some_and(|svg| count(&svg, "path") > 0));
 }

@@ -1,6 +1,6 @@
 //! How far slews go: the largest angle that each combination of everything else allows.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 
 use serde_json::Value;
@@ -17,7 +17,11 @@ const AXIS: &str = "maneuver.axis";
 /// Every recorded slew of a sweep that varies their angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slews {
-    /// The slews, in the order of the plan.
+    /// How many there are.
+    pub recorded: usize,
+    /// Of those, that succeeded.
+    pub succeeded: usize,
+    /// The slews to draw, in the order of the plan: all, or a sample if there are too many.
     pub points: Vec<SlewPoint>,
     /// What varies beside the angle.
     pub columns: Vec<Column>,
@@ -42,8 +46,6 @@ pub struct SlewPoint {
     pub attitude_error: f64,
     /// Value of the objective.
     pub objective: f64,
-    /// Which of the [`Slews::limits`] it counts for.
-    pub limit: usize,
 }
 
 /// How far one combination goes.
@@ -64,8 +66,14 @@ pub struct SlewLimit {
 }
 
 impl Slews {
-    /// The slews of a table; none if no angle varies.
-    pub fn of(table: &Table) -> Option<Self> {
+    /// So many points a figure and a page can be opened with; a million are 200 MB of either.
+    pub const MOST_POINTS: usize = 20_000;
+
+    /// The slews of a table, with `most_points` of them to draw; none if no angle varies.
+    ///
+    /// Of more, a sample is kept that depends on nothing but their case ids. Failures are what one
+    /// looks for: they get up to half of it, and more where successes leave room.
+    pub fn of(table: &Table, most_points: usize) -> Option<Self> {
         let sweep = table.sweep();
         let columns = sweep.columns();
         let angle_at =
@@ -73,9 +81,9 @@ impl Slews {
         let axis_at = columns.iter().position(|column| column.field == AXIS);
         let base_axis = &sweep.base()["maneuver"]["axis"];
         let mut known: HashMap<String, usize> = HashMap::new();
-        let mut slews = Self { points: Vec::new(), columns: Vec::new(), limits: Vec::new() };
-        let others = columns.iter().enumerate().filter(|(i, _)| *i != angle_at);
-        slews.columns = others.map(|(_, column)| column.clone()).collect();
+        let mut limits: Vec<SlewLimit> = Vec::new();
+        let mut tried: Vec<Vec<(f64, bool)>> = Vec::new();
+        let [mut successes, mut failures] = [Sample::of(most_points), Sample::of(most_points)];
         for (index, row) in table.recorded() {
             let case = sweep.case(index);
             let (Some(angle_deg), Some(axis)) = (
@@ -88,46 +96,37 @@ impl Slews {
             settings.remove(angle_at);
             let limit =
                 *known.entry(Value::from(settings.clone()).to_string()).or_insert_with(|| {
-                    slews.limits.push(SlewLimit {
-                        settings,
-                        axis,
-                        tried: 0,
-                        succeeded: 0,
-                        max_angle_deg: 0.0,
-                        all_up_to_deg: 0.0,
-                    });
-                    slews.limits.len() - 1
+                    limits.push(SlewLimit::of(settings, axis));
+                    tried.push(Vec::new());
+                    limits.len() - 1
                 });
-            slews.points.push(SlewPoint {
-                case_id: case.id,
-                axis,
-                angle_deg,
-                succeeded: row.succeeded(),
-                status: row.status,
-                attitude_error: row.attitude_error,
-                objective: row.objective,
-                limit,
-            });
+            let succeeded = row.succeeded();
+            tried[limit].push((angle_deg.abs(), succeeded));
+            let sample = if succeeded { &mut successes } else { &mut failures };
+            sample.offer(
+                index,
+                SlewPoint {
+                    case_id: case.id,
+                    axis,
+                    angle_deg,
+                    succeeded,
+                    status: row.status,
+                    attitude_error: row.attitude_error,
+                    objective: row.objective,
+                },
+            );
         }
-        slews.find_limits();
-        Some(slews)
-    }
-
-    fn find_limits(&mut self) {
-        let mut angles: Vec<Vec<(f64, bool)>> = self.limits.iter().map(|_| Vec::new()).collect();
-        for slew in &self.points {
-            angles[slew.limit].push((slew.angle_deg.abs(), slew.succeeded));
+        for (limit, angles) in limits.iter_mut().zip(tried) {
+            limit.find(angles);
         }
-        for (limit, mut angles) in self.limits.iter_mut().zip(angles) {
-            angles.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-            limit.tried = angles.len();
-            limit.succeeded = angles.iter().filter(|(_, succeeded)| *succeeded).count();
-            let reached = |(angle, _): &(f64, bool)| *angle;
-            limit.max_angle_deg =
-                angles.iter().rfind(|(_, succeeded)| *succeeded).map_or(0.0, reached);
-            limit.all_up_to_deg =
-                angles.iter().take_while(|(_, succeeded)| *succeeded).last().map_or(0.0, reached);
-        }
+        let others = columns.iter().enumerate().filter(|(i, _)| *i != angle_at);
+        Some(Self {
+            recorded: successes.offered + failures.offered,
+            succeeded: successes.offered,
+            points: Sample::join(successes, failures),
+            columns: others.map(|(_, column)| column.clone()).collect(),
+            limits,
+        })
     }
 
     /// Writes `slew_limits.csv`: one row a combination.
@@ -149,6 +148,57 @@ impl Slews {
             csv.write_record(&cells)?;
         }
         csv.flush()
+    }
+}
+
+impl SlewLimit {
+    fn of(settings: Vec<Value>, axis: [f64; 3]) -> Self {
+        Self { settings, axis, tried: 0, succeeded: 0, max_angle_deg: 0.0, all_up_to_deg: 0.0 }
+    }
+
+    /// From the angles that were tried, and whether they succeeded.
+    fn find(&mut self, mut angles: Vec<(f64, bool)>) {
+        angles.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        self.tried = angles.len();
+        self.succeeded = angles.iter().filter(|(_, succeeded)| *succeeded).count();
+        let reached = |(angle, _): &(f64, bool)| *angle;
+        self.max_angle_deg = angles.iter().rfind(|(_, succeeded)| *succeeded).map_or(0.0, reached);
+        self.all_up_to_deg =
+            angles.iter().take_while(|(_, succeeded)| *succeeded).last().map_or(0.0, reached);
+    }
+}
+
+/// The slews with the smallest case ids: these are hashes, so that no pattern of the plan shows
+/// through, as it does with every n-th slew where n divides the number of angles.
+struct Sample {
+    most: usize,
+    offered: usize,
+    /// With their places in the plan.
+    kept: BTreeMap<CaseId, (usize, SlewPoint)>,
+}
+
+impl Sample {
+    fn of(most: usize) -> Self {
+        Self { most, offered: 0, kept: BTreeMap::new() }
+    }
+
+    fn offer(&mut self, index: usize, slew: SlewPoint) {
+        self.offered += 1;
+        self.kept.insert(slew.case_id, (index, slew));
+        if self.kept.len() > self.most {
+            self.kept.pop_last();
+        }
+    }
+
+    /// As many of both as there is room for, in the order of the plan.
+    fn join(successes: Self, failures: Self) -> Vec<SlewPoint> {
+        let most = successes.most;
+        let failed = failures.kept.len().min((most / 2).max(most - successes.kept.len()));
+        let successes = successes.kept.into_values().take(most - failed);
+        let mut points: Vec<_> =
+            failures.kept.into_values().take(failed).chain(successes).collect();
+        points.sort_unstable_by_key(|(index, _)| *index);
+        points.into_iter().map(|(_, slew)| slew).collect()
     }
 }
 

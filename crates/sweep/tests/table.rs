@@ -1,9 +1,10 @@
 //! What the records of a folder become, from records that were made up.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use righting_sweep::{
-    CaseStatus, Flown, Outcome, Record, RunFacts, Slews, Summary, Sweep, SweepFolder, Table,
+    CaseStatus, Flown, Outcome, Record, RunFacts, Shard, Slews, Summary, Sweep, SweepFolder, Table,
     Trouble,
 };
 
@@ -72,7 +73,7 @@ fn rows_stand_in_the_order_of_the_plan_and_a_success_beats_a_crash() {
 fn failures_and_limits_are_summed_up() {
     let (_place, folder) = folder();
     let table = Table::read(&folder).unwrap();
-    let slews = Slews::of(&table).unwrap();
+    let slews = Slews::of(&table, Slews::MOST_POINTS).unwrap();
     let limits: Vec<(usize, f64, f64)> =
         slews.limits.iter().map(|l| (l.tried, l.max_angle_deg, l.all_up_to_deg)).collect();
     assert_eq!(limits, [(2, 20.0, 20.0), (2, 10.0, 10.0), (1, 10.0, 10.0)]);
@@ -82,6 +83,45 @@ fn failures_and_limits_are_summed_up() {
     assert_eq!(summary.failures[0].cause, "crashed: signal 9, \"killed\"");
     assert_eq!(summary.failures[0].case_ids, [table.sweep().case(3).id]);
     assert_eq!(summary.total_solve_s, 2.5);
+}
+
+/// The slews of 30 axes and 20 angles, of which `succeeds` says by angle which do; up to `most` to draw.
+fn slews(most: usize, succeeds: fn(usize) -> bool) -> Slews {
+    let place = tempfile::tempdir().unwrap();
+    let folder = SweepFolder::at(place.path());
+    let text = SWEEP
+        .replace("\"fibonacci\": 3", "\"fibonacci\": 30")
+        .replace("[10, 20]", &format!("{:?}", (1..=20).collect::<Vec<u32>>()));
+    let sweep = Sweep::parse(&text, Path::new("made_up.json")).unwrap();
+    folder.plan(&sweep, "0").unwrap();
+    let mut journal = folder.journal(Shard::WHOLE).unwrap();
+    for index in (0..sweep.len()).rev() {
+        let outcome = Outcome { verified: succeeds(index % 20), ..success(index as f64) };
+        journal.append(&record(&sweep, index, outcome)).unwrap();
+    }
+    Slews::of(&Table::read(&folder).unwrap(), most).unwrap()
+}
+
+#[test]
+fn of_many_slews_a_sample_is_drawn_and_all_are_counted() {
+    let first_fails = |angle: usize| angle > 0;
+    let all = slews(600, first_fails);
+    assert_eq!((all.recorded, all.succeeded, all.points.len()), (600, 570, 600));
+    let some = slews(200, first_fails);
+    assert_eq!((some.recorded, some.succeeded, &some.limits), (600, 570, &all.limits));
+    let drawn = |slews: &Slews| {
+        let won = slews.points.iter().filter(|slew| slew.succeeded).count();
+        (won, slews.points.len() - won)
+    };
+    assert_eq!(drawn(&some), (170, 30));
+    let angles: HashSet<u64> = some.points.iter().map(|slew| slew.angle_deg as u64).collect();
+    assert_eq!(angles.len(), 20, "a sample has every angle");
+    let mut rest = all.points.iter();
+    assert!(some.points.iter().all(|slew| rest.any(|other| other == slew)), "in the plan's order");
+    // Where most fail, successes are shown as well; and where few succeed, more failures.
+    assert_eq!(drawn(&slews(100, |angle| angle % 2 == 0)), (50, 50));
+    assert_eq!(drawn(&slews(100, |angle| angle == 0)), (30, 70));
+    assert_eq!(drawn(&slews(0, first_fails)), (0, 0));
 }
 
 #[cfg(feature = "parquet")]

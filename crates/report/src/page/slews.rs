@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{escaped, fill, in_script};
 use crate::number::short;
-use crate::slews::{costs, subtitle};
+use crate::slews::{costs, sample, subtitle};
 use crate::style;
 
 pub(super) const SCRIPT: &str = include_str!("../../page/dist/slews.js");
@@ -68,7 +68,10 @@ impl<'a> Data<'a> {
         });
         Self {
             name,
-            subtitle: subtitle(slews),
+            subtitle: match sample(slews) {
+                Some(sample) => format!("{}; {sample}", subtitle(slews)),
+                None => subtitle(slews),
+            },
             points: slews.points.iter().map(Point::of).collect(),
             ramp: (0..COLORS).map(|i| style::ramp(i as f64 / (COLORS - 1) as f64)).collect(),
             objective: Scale { low: costs.low, high: costs.high, ticks: ticks.collect() },
