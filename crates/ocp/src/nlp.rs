@@ -242,14 +242,7 @@ impl Problem for MultipleShooting<'_> {
             running.first.evaluate_block(workspace);
             let computed = workspace.output(1);
             for (lane, step) in block.items() {
-                let mut next = 0;
-                for (&(_, column), constant) in
-                    running.jacobian.entries.iter().zip(&running.jacobian.constants)
-                {
-                    let value = constant.unwrap_or_else(|| {
-                        next += 1;
-                        lanes(computed, next - 1)[lane]
-                    });
+                for (_, column, value) in running.jacobian.at_lane(computed, lane) {
                     let variable = match column < states {
                         true if step == 0 => continue,
                         true => layout.state(step).start + column,
@@ -263,14 +256,7 @@ impl Problem for MultipleShooting<'_> {
         let workspace = &mut self.worker.terminal_cost.first;
         load_terminal(workspace, rows.state(steps));
         terminal.first.evaluate_block(workspace);
-        let mut next = 0;
-        for (&(_, column), constant) in
-            terminal.jacobian.entries.iter().zip(&terminal.jacobian.constants)
-        {
-            let value = constant.unwrap_or_else(|| {
-                next += 1;
-                lanes(workspace.output(1), next - 1)[0]
-            });
+        for (_, column, value) in terminal.jacobian.at_lane(workspace.output(1), 0) {
             gradient[layout.state(steps).start + column] += value;
         }
         Ok(())

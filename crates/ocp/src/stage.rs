@@ -1,5 +1,6 @@
 use righting_symbolic::{Backend, Expr, Function, SparseMatrix, hessian_lower, jacobian};
 
+use crate::block::lanes;
 use crate::error::OcpError;
 use crate::passive::active_states;
 use crate::problem::{ControlProblem, Interval};
@@ -22,6 +23,23 @@ impl MatrixOutput {
             entries: matrix.sparsity().iter().collect(),
             constants: matrix.values.iter().map(|value| value.as_constant()).collect(),
         }
+    }
+
+    /// Row, column and value of every entry at one point: the constants, and what the function has
+    /// computed in one lane of its output.
+    pub(crate) fn at_lane<'a>(
+        &'a self,
+        computed: &'a [f64],
+        lane: usize,
+    ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+        let mut varying = 0;
+        self.entries.iter().zip(&self.constants).map(move |(&(row, column), constant)| {
+            let value = constant.unwrap_or_else(|| {
+                varying += 1;
+                lanes(computed, varying - 1)[lane]
+            });
+            (row, column, value)
+        })
     }
 
     /// How many values the function computes.
