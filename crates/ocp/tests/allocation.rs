@@ -1,5 +1,6 @@
 //! The program's functions allocate nothing once they have run.
 
+#[path = "../../symbolic/tests/counting/mod.rs"]
 mod counting;
 
 use counting::allocations;

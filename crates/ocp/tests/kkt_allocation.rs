@@ -1,5 +1,6 @@
 //! Factorising and solving allocate nothing after the first time.
 
+#[path = "../../symbolic/tests/counting/mod.rs"]
 mod counting;
 mod kkt_support;
 

@@ -1,31 +1,10 @@
 //! Evaluation allocates nothing, on any backend.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
+mod counting;
 
+use counting::allocations;
 use num_dual::DualNum;
 use righting_symbolic::{Backend, Expr, Function, gradient, hessian_lower, trace};
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: everything is passed on to the system allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
-        // SAFETY: as the caller's.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as the caller's.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 fn oscillators() -> Function {
     trace(|| {
@@ -52,7 +31,7 @@ fn evaluation_allocates_nothing() {
     for backend in Backend::available() {
         let function = function.with_backend(backend).unwrap();
         let mut workspace = function.workspace();
-        let before = ALLOCATIONS.load(Ordering::SeqCst);
+        let before = allocations();
         workspace.input_mut(0).fill(0.3);
         function.evaluate_block(&mut workspace);
         let block_sum: f64 = workspace.output(1).iter().sum();
@@ -62,7 +41,7 @@ fn evaluation_allocates_nothing() {
             &mut [&mut gradient[..lengths[0]], &mut hessian[..lengths[1]]],
         );
         function.evaluate_batch(&mut workspace, points, &[&x], &mut [&mut gradient, &mut hessian]);
-        let after = ALLOCATIONS.load(Ordering::SeqCst);
+        let after = allocations();
         assert_eq!(after - before, 0, "{backend:?}");
         assert!(block_sum.is_finite() && gradient.iter().all(|x| x.is_finite()));
     }
