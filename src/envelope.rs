@@ -7,13 +7,14 @@ use clap::Args;
 use righting_maneuver::envelope::{Sizing, read_system_or_scenario};
 use righting_maneuver::wheels::{Radii, Wheel, Zonotope};
 use righting_maneuver::{Envelope, Envelopes, WheelArray, envelopes};
-use righting_report::{EnvelopeOutlines, envelope_svg, write_whole};
+use righting_report::{EnvelopeOutlines, envelope_svg};
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::figures::Formats;
 use crate::output;
 use crate::output_folder::OutputFolder;
+use crate::wheels::Wheels;
 
 /// Compare an arm's momentum and torque envelopes with those of reaction wheels.
 #[derive(Args)]
@@ -28,9 +29,8 @@ pub struct Arguments {
     /// Seed of the samples.
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// The wheels; a pyramid of four, 1 N m s and 0.1 N m each, if not given.
-    #[arg(long, value_name = "FILE")]
-    wheels: Option<PathBuf>,
+    #[command(flatten)]
+    wheels: Wheels,
     /// The folder for envelope.json, envelope.svg and the meshes.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -70,7 +70,7 @@ struct PrintedWheels<'a> {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
     let system = read_system_or_scenario(&arguments.file)?;
-    let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
+    let wheels = arguments.wheels.read()?;
     let folder = OutputFolder::open(&arguments.out)?;
     let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);
     let zonotopes = [wheels.momentum(), wheels.torque()];
@@ -95,6 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
     };
     let json = output::to_json(&printed)?;
+    folder.write("envelope.json", json.as_bytes())?;
     let [momentum_mesh, torque_mesh] = [zonotopes[0].mesh(), zonotopes[1].mesh()];
     let meshes = [
         ("momentum_arm.obj", &found.momentum.hull),
@@ -105,11 +106,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ("torque_wheels.obj", &torque_mesh),
     ];
     for (name, mesh) in meshes {
-        write_whole(folder.path(), name, mesh.to_obj().as_bytes())?;
+        folder.write(name, mesh.to_obj().as_bytes())?;
     }
     let figure = figure(&system.name, &found, &wheels);
     writer.write(folder.path(), "envelope.svg", &figure)?;
-    write_whole(folder.path(), "envelope.json", json.as_bytes())?;
     if arguments.json {
         output::print(&json)
     } else {

@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::Offset;
-use righting_maneuver::{Solution, Verified, verify_directory};
-use righting_report::{AemOptions, aem, npz, write_whole};
+use righting_maneuver::{Verified, verify_directory};
+use righting_report::{AemOptions, aem, npz};
 
 use crate::failure::Failure;
 use crate::output;
@@ -26,24 +26,32 @@ pub struct Arguments {
     /// The file; attitude.aem or trajectory.npz in the plan's folder if not given.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// AEM: time of the first node, such as 2027-03-01T12:00:00.
-    #[arg(long, value_name = "TIME", default_value = "2000-01-01T12:00:00", value_parser = epoch)]
-    epoch: DateTime,
-    /// AEM: the time system of the epoch; no leap second is expected within the maneuver.
-    #[arg(long, value_name = "NAME", default_value = "UTC")]
-    time_system: String,
-    /// AEM: the inertial frame that the scenario's inertial axes are.
-    #[arg(long, value_name = "NAME", default_value = "EME2000")]
-    frame: String,
+    #[command(flatten)]
+    message: Option<Message>,
+}
+
+/// What a message says beyond the plan.
+#[derive(Args, Clone, Default)]
+struct Message {
+    /// AEM: time of the first node, such as 2027-03-01T12:00:00; 2000-01-01T12:00:00 if not given.
+    #[arg(long, value_name = "TIME", value_parser = epoch)]
+    epoch: Option<DateTime>,
+    /// AEM: the time system of the epoch, UTC if not given; no leap second is expected within the
+    /// maneuver.
+    #[arg(long, value_name = "NAME")]
+    time_system: Option<String>,
+    /// AEM: the inertial frame that the scenario's inertial axes are; EME2000 if not given.
+    #[arg(long, value_name = "NAME")]
+    frame: Option<String>,
     /// AEM: name of the spacecraft; the system's if not given.
     #[arg(long, value_name = "NAME")]
     object_name: Option<String>,
-    /// AEM: international designator of the spacecraft.
-    #[arg(long, value_name = "ID", default_value = "UNKNOWN")]
-    object_id: String,
-    /// AEM: who sends the message.
-    #[arg(long, value_name = "NAME", default_value = "RIGHTING")]
-    originator: String,
+    /// AEM: international designator of the spacecraft; UNKNOWN if not given.
+    #[arg(long, value_name = "ID")]
+    object_id: Option<String>,
+    /// AEM: who sends the message; RIGHTING if not given.
+    #[arg(long, value_name = "NAME")]
+    originator: Option<String>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -56,16 +64,20 @@ enum Format {
 
 /// Reads, checks, converts and writes.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let plan = verify_directory(&arguments.folder)?;
-    let Verified { solution, scenario, trajectory, verification } = plan;
-    let solution = Solution { verification, ..solution };
+    if let (Format::Npz, Some(_)) = (arguments.format, &arguments.message) {
+        return Err(Failure::Usage(
+            "--format npz: an archive holds the plan alone, no epoch, frame or names",
+        ));
+    }
+    let Verified { solution, scenario, trajectory } = verify_directory(&arguments.folder)?;
     if let Some(failure) = Failure::of_verification(&solution) {
         return Err(failure);
     }
     let (name, contents) = match arguments.format {
         Format::Npz => (NPZ_FILE, npz(&trajectory)?),
         Format::Aem => {
-            let options = message_options(arguments, &scenario.system().name);
+            let message = arguments.message.clone().unwrap_or_default();
+            let options = message.options(&scenario.system().name);
             (AEM_FILE, aem(&solution, &trajectory, &options)?.into_bytes())
         }
     };
@@ -73,20 +85,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = OutputFolder::open(folder.unwrap_or(Path::new(".")))?;
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
-    let written = write_whole(folder.path(), &name.unwrap_or_default(), &contents)?;
+    let written = folder.write(&name.unwrap_or_default(), &contents)?;
     output::print(&format!("{}\n", written.display()))
 }
 
-fn message_options(arguments: &Arguments, system: &str) -> AemOptions {
-    let now = Timestamp::try_from(SystemTime::now()).unwrap_or_default();
-    AemOptions {
-        epoch: arguments.epoch,
-        creation_date: Offset::UTC.to_datetime(now),
-        originator: arguments.originator.clone(),
-        object_name: arguments.object_name.clone().unwrap_or_else(|| system.to_owned()),
-        object_id: arguments.object_id.clone(),
-        inertial_frame: arguments.frame.clone(),
-        time_system: arguments.time_system.clone(),
+impl Message {
+    fn options(self, system: &str) -> AemOptions {
+        let now = Timestamp::try_from(SystemTime::now()).unwrap_or_default();
+        let or = |given: Option<String>, default: &str| given.unwrap_or_else(|| default.to_owned());
+        AemOptions {
+            epoch: self.epoch.unwrap_or(DateTime::constant(2000, 1, 1, 12, 0, 0, 0)),
+            creation_date: Offset::UTC.to_datetime(now),
+            originator: or(self.originator, "RIGHTING"),
+            object_name: or(self.object_name, system),
+            object_id: or(self.object_id, "UNKNOWN"),
+            inertial_frame: or(self.frame, "EME2000"),
+            time_system: or(self.time_system, "UTC"),
+        }
     }
 }
 

@@ -22,12 +22,24 @@ pub enum Failure {
         /// What is in the way.
         problem: String,
     },
+    /// Arguments that contradict each other, beyond what the parser sees.
+    #[error("{0}")]
+    Usage(&'static str),
     /// A sweep cannot start or go on.
     #[error(transparent)]
     Sweep(#[from] SweepError),
     /// A figure could not be written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A plan is written, but not everything that shows it.
+    #[error("the plan in {} is whole, but not what shows it: {cause}", folder.display())]
+    NotShown {
+        /// The folder of the plan.
+        folder: PathBuf,
+        /// What is in the way.
+        #[source]
+        cause: Box<Failure>,
+    },
     /// Stdout does not take what is printed.
     #[error("cannot print results: {0}")]
     Stdout(io::Error),
@@ -91,8 +103,10 @@ impl Failure {
         match self {
             Self::Input(_)
             | Self::OutputFolder { .. }
+            | Self::Usage(_)
             | Self::Sweep(_)
             | Self::Report(_)
+            | Self::NotShown { .. }
             | Self::Stdout(_)
             | Self::NotReady { .. }
             | Self::NotSearched(_) => 2,
@@ -122,6 +136,9 @@ impl Failure {
             }
             Self::Report(ReportError::NoFonts) => {
                 Some("install some, such as Debian's fonts-dejavu-core, or leave --png out")
+            }
+            Self::NotShown { .. } => {
+                Some("`righting figures` and `righting report` make the rest, from that folder")
             }
             Self::OutputFolder { .. } => Some("name another folder with --out"),
             Self::NoPlan { status: Status::Infeasible } => {

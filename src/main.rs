@@ -22,6 +22,7 @@ mod schema;
 mod solve;
 mod sweep;
 mod verify;
+mod wheels;
 
 use std::process::ExitCode;
 

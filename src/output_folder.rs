@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use righting_maneuver::files;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use serde::Serialize;
 
@@ -58,10 +59,11 @@ pub const AEM_FILE: &str = "attitude.aem";
 /// The plan as a NumPy archive.
 pub const NPZ_FILE: &str = "trajectory.npz";
 
-/// Everything that belongs to a plan.
+/// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
+/// whole comes first: it is the first to be removed.
 const ALL: [&str; 13] = [
-    TRAJECTORY_FILE,
     SOLUTION_FILE,
+    TRAJECTORY_FILE,
     ATTITUDE_FILE,
     JOINTS_FILE,
     REPORT_FILE,
@@ -74,6 +76,13 @@ const ALL: [&str; 13] = [
     AEM_FILE,
     NPZ_FILE,
 ];
+
+/// Names of everything that belongs to a plan.
+fn all() -> impl Iterator<Item = PathBuf> {
+    let figures =
+        ALL.into_iter().map(Path::new).filter(|name| name.extension() == Some("svg".as_ref()));
+    ALL.into_iter().map(PathBuf::from).chain(figures.map(|name| name.with_extension("png")))
+}
 
 impl ResultFiles {
     /// Of a plan with its figures and its page.
@@ -117,8 +126,8 @@ impl OutputFolder {
             })
         })?;
         tempfile::NamedTempFile::new_in(folder).map_err(|error| refuse(plain(&error)))?;
-        match ALL.into_iter().find(|name| folder.join(name).is_dir()) {
-            Some(name) => Err(refuse(format!("{name} is a directory"))),
+        match all().find(|name| folder.join(name).is_dir()) {
+            Some(name) => Err(refuse(format!("{} is a directory", name.display()))),
             None => Ok(Self { folder: folder.to_owned() }),
         }
     }
@@ -128,19 +137,17 @@ impl OutputFolder {
         &self.folder
     }
 
+    /// Writes a file, whole or not at all; its path.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<PathBuf, Failure> {
+        let file = self.folder.join(name);
+        files::replace(&file, |writer| writer.write_all(contents))?;
+        Ok(file)
+    }
+
     /// Removes an earlier plan, so that a solve without one leaves none that looks like its own.
     pub fn remove_earlier_plan(&self) -> Result<(), Failure> {
-        let figures = ALL.into_iter().filter(|name| name.ends_with(".svg"));
-        let pngs = figures.map(|name| Path::new(name).with_extension("png"));
-        for name in ALL.into_iter().map(PathBuf::from).chain(pngs) {
-            match std::fs::remove_file(self.folder.join(&name)) {
-                Err(error) if error.kind() != ErrorKind::NotFound => {
-                    let problem =
-                        format!("{} cannot be replaced: {}", name.display(), plain(&error));
-                    return Err(Failure::OutputFolder { folder: self.folder.clone(), problem });
-                }
-                _ => {}
-            }
+        for name in all() {
+            files::remove(&self.folder.join(name))?;
         }
         Ok(())
     }

@@ -6,14 +6,15 @@ use std::path::PathBuf;
 use clap::Args;
 use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
 use righting_maneuver::wheels::Wheel;
-use righting_maneuver::{Error, PowerProfile, Solution, Verified, WheelArray, verify_directory};
-use righting_report::{PowerComparison, power_svg, power_table, write_whole};
+use righting_maneuver::{Error, PowerProfile, Verified, verify_directory};
+use righting_report::{PowerComparison, power_svg, power_table};
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::figures::Formats;
 use crate::output;
 use crate::output_folder::{OutputFolder, POWER_FIGURE_FILE, POWER_FILE};
+use crate::wheels::Wheels;
 
 /// Work out the joint torques of a plan and the power they take, beside reaction wheels.
 #[derive(Args)]
@@ -24,9 +25,8 @@ pub struct Arguments {
     /// Overall efficiency of the joints' actuators.
     #[arg(long, value_name = "ETA", default_value_t = PAPER_EFFICIENCY, value_parser = efficiency)]
     efficiency: f64,
-    /// The wheels; a pyramid of four, 5 W each, if not given.
-    #[arg(long, value_name = "FILE")]
-    wheels: Option<PathBuf>,
+    #[command(flatten)]
+    wheels: Wheels,
     /// The folder for power.json and power.svg; the plan's if not given.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -62,10 +62,8 @@ struct PrintedWheels<'a> {
 /// Reads, checks, computes, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
-    let wheels = WheelArray::read_or_pyramid(arguments.wheels.as_deref())?;
-    let plan = verify_directory(&arguments.folder)?;
-    let Verified { solution, scenario, trajectory, verification } = plan;
-    let solution = Solution { verification, ..solution };
+    let wheels = arguments.wheels.read()?;
+    let Verified { solution, scenario, trajectory } = verify_directory(&arguments.folder)?;
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
     let efficiency = arguments.efficiency;
@@ -90,8 +88,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let comparison = PowerComparison { profile: &profile, efficiency, wheels: &wheels };
     let json = output::to_json(&printed)?;
+    folder.write(POWER_FILE, json.as_bytes())?;
     writer.write(folder.path(), POWER_FIGURE_FILE, &power_svg(&solution, comparison))?;
-    write_whole(folder.path(), POWER_FILE, json.as_bytes())?;
     if arguments.json {
         output::print(&json)?;
     } else {

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::Scenario;
 use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_maneuver::scenario::MAX_STARTS;
+use righting_maneuver::{Maneuver, Scenario};
 use righting_ocp::Control;
-use righting_report::{FigureWriter, reach_summary, reach_svg, write_whole};
+use righting_report::{FigureWriter, reach_summary, reach_svg};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -37,6 +37,7 @@ const PLAN_FOLDER: &str = "plan";
 ///
 /// A shorter duration or larger angle that was not tried may still succeed.
 #[derive(Args)]
+#[command(mut_arg("png", |png| png.requires("out")))]
 pub struct Arguments {
     /// The scenario, a JSON file.
     scenario: PathBuf,
@@ -46,9 +47,9 @@ pub struct Arguments {
     /// How close to find the edge: durations in percent, 1 by default; angles in degrees, 0.5.
     #[arg(long, value_name = "R", value_parser = resolution)]
     resolution: Option<f64>,
-    /// Detumble: how many percent above the bound the rate left may be.
-    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = percent)]
-    within: f64,
+    /// Detumble: how many percent above the bound the rate left may be; 2 if not given.
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    within: Option<f64>,
     /// Try so many random starts too before a value counts as failed.
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u64).range(0..=MAX_STARTS))]
@@ -132,6 +133,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         file.weights.control = arguments.control_weight;
         scenario = Scenario::from_file(file, &arguments.scenario)?;
     }
+    if arguments.within.is_some() && *scenario.maneuver() != Maneuver::Detumble {
+        return Err(Failure::Usage("--within: only a detumble leaves a rate, this is a slew"));
+    }
     let load = started.elapsed();
     let quantity = match arguments.what {
         What::Duration => Quantity::Duration,
@@ -140,7 +144,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let defaults = ReachSettings::new(quantity);
     let settings = ReachSettings {
         resolution: arguments.resolution.unwrap_or(defaults.resolution),
-        within_percent: arguments.within,
+        within_percent: arguments.within.unwrap_or(defaults.within_percent),
         starts: arguments.starts,
         ..defaults
     };
@@ -228,7 +232,7 @@ struct Clock {
     load: Duration,
 }
 
-/// Writes the search and the plan at its edge.
+/// Writes the search and the plan at its edge, what only shows them last.
 fn keep(
     folder: &OutputFolder,
     writer: &FigureWriter,
@@ -237,7 +241,7 @@ fn keep(
     found: &Reach,
     Clock { started, load }: Clock,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
+    let mut files = vec![folder.write(JSON_FILE, output::to_json(printed)?.as_bytes())?];
     let plan_folder = folder.path().join(PLAN_FOLDER);
     if let Some(Reached { scenario, plan, verification, verify }) = &found.plan {
         let times = Times { load, verify: *verify };
@@ -252,10 +256,6 @@ fn keep(
     }
     let figure = reach_svg(scenario.resolved(), found);
     files.extend(writer.write(folder.path(), FIGURE_FILE, &figure)?);
-    let mut json = serde_json::to_string_pretty(printed)
-        .map_err(|error| Failure::Stdout(std::io::Error::other(error)))?;
-    json.push('\n');
-    files.push(write_whole(folder.path(), JSON_FILE, json.as_bytes())?);
     Ok(files)
 }
 

@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use righting_maneuver::detumble::rate_bound_rad_s;
 use righting_maneuver::solution::SCHEMA;
-use righting_maneuver::verifier::TRAJECTORY_FILE;
+use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_maneuver::{
     IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
-use righting_report::{FigureWriter, report_html, summary, write_whole};
+use righting_report::{FigureWriter, report_html, summary};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -66,6 +66,9 @@ struct Printed<'a> {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
     let interrupt = Interrupt::watch();
+    if arguments.figures == FigureSet::None && arguments.formats.png {
+        return Err(Failure::Usage("--png and --figures none: there is no figure to write as PNG"));
+    }
     let scenario = Scenario::read(&arguments.scenario)?;
     let load = started.elapsed();
     let mut note = None;
@@ -151,8 +154,9 @@ pub struct Shown<'a> {
     pub page: bool,
 }
 
-/// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes last, so
-/// that where it is, the rest is too.
+/// Writes what there is: everything of a plan, or the outcome alone. `solution.json` comes after the
+/// trajectory, so that where it is, the plan is whole, and before what shows the plan, so that the plan
+/// stays if that fails.
 pub fn write(
     folder: &OutputFolder,
     shown: Shown<'_>,
@@ -162,17 +166,33 @@ pub fn write(
     started: Instant,
 ) -> Result<ResultFiles, Failure> {
     folder.remove_earlier_plan()?;
-    let mut files = ResultFiles::without_plan(folder);
-    if solution.status.is_acceptable() {
+    let is_plan = solution.status.is_acceptable();
+    if is_plan {
         trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE))?;
-        let figures = draw(folder.path(), shown, scenario, solution, trajectory)?;
-        let page = shown.page.then(|| report_html(scenario, solution, trajectory));
-        let page = page.map(|page| write_whole(folder.path(), REPORT_FILE, page.as_bytes()));
-        files = ResultFiles::of_plan(folder, figures, page.transpose()?);
     }
     solution.timing_s.total = started.elapsed().as_secs_f64();
-    solution.write_json(&files.solution)?;
-    Ok(files)
+    solution.write_json(&folder.path().join(SOLUTION_FILE))?;
+    if !is_plan {
+        return Ok(ResultFiles::without_plan(folder));
+    }
+    show(folder, shown, scenario, solution, trajectory).map_err(|cause| Failure::NotShown {
+        folder: folder.path().to_owned(),
+        cause: Box::new(cause),
+    })
+}
+
+/// Writes what shows a plan beside its files.
+fn show(
+    folder: &OutputFolder,
+    shown: Shown<'_>,
+    scenario: &Scenario,
+    solution: &Solution,
+    trajectory: &Trajectory,
+) -> Result<ResultFiles, Failure> {
+    let figures = draw(folder.path(), shown, scenario, solution, trajectory)?;
+    let page = shown.page.then(|| report_html(scenario, solution, trajectory));
+    let page = page.map(|page| folder.write(REPORT_FILE, page.as_bytes())).transpose()?;
+    Ok(ResultFiles::of_plan(folder, figures, page))
 }
 
 /// The solution that a plan amounts to, verified where there is something to verify.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use righting_maneuver::verifier::TRAJECTORY_FILE;
-use righting_maneuver::{Solution, Verification, Verified, verify_directory};
+use righting_maneuver::{Verification, Verified, verify_directory};
 use righting_report::verification_summary;
 use serde::Serialize;
 
@@ -32,8 +32,7 @@ struct Printed<'a> {
 
 /// Reads, checks and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Verified { solution, scenario, verification, .. } = verify_directory(&arguments.folder)?;
-    let solution = Solution { verification, ..solution };
+    let Verified { solution, scenario, .. } = verify_directory(&arguments.folder)?;
     if arguments.json {
         output::print_json(&Printed {
             scenario: scenario.name(),

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 pub struct Formats {
     /// Write every figure as PNG too, 192 pixels to the inch.
     #[arg(long)]
-    png: bool,
+    pub png: bool,
 }
 
 impl Formats {

@@ -63,8 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !folder.join(SOLUTION_FILE).exists() && folder.join(paper::FIRST_SCENARIO).exists() {
         return paper::run(folder, out.as_deref().unwrap_or(Path::new("out/paper")), &writer);
     }
-    let Verified { solution, scenario, trajectory, verification } = verify_directory(folder)?;
-    let solution = Solution { verification, ..solution };
+    let Verified { solution, scenario, trajectory } = verify_directory(folder)?;
     let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
     let shown = Shown { figures: FigureSet::All, writer: &writer, page: false };
     let files = draw(folder.path(), shown, &scenario, &solution, &trajectory)?;

@@ -11,7 +11,6 @@ use righting_maneuver::{
 use righting_ocp::Control;
 use righting_report::{
     FigureWriter, PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg,
-    write_whole,
 };
 
 use super::FigureSet;
@@ -127,11 +126,11 @@ pub fn run(scenarios: &Path, out: &Path, writer: &FigureWriter) -> Result<(), Fa
         ("comparison.md", tables::comparison(&comparison)),
     ];
     let mut files = Vec::new();
+    for (name, table) in &tables {
+        files.push(folder.write(name, table.as_bytes())?);
+    }
     for (name, figure) in &figures {
         files.extend(writer.write(folder.path(), name, figure)?);
-    }
-    for (name, table) in &tables {
-        files.push(write_whole(folder.path(), name, table.as_bytes())?);
     }
     output::print(&tables::comparison(&comparison))?;
     output::complain(&format!(

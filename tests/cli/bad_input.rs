@@ -85,6 +85,8 @@ fn a_folder_that_cannot_take_results_is_refused_before_solving() {
 
     std::fs::create_dir_all(folder.path().join("held/trajectory.csv")).expect("room");
     at("held").assert_refused("trajectory.csv is a directory");
+    std::fs::create_dir_all(folder.path().join("taken/joints.png")).expect("writable");
+    at("taken").assert_refused("joints.png is a directory");
 
     // Not even root may write here.
     #[cfg(target_os = "linux")]

@@ -56,6 +56,8 @@ fn the_largest_angle_and_a_detumble_s_time_have_answers_too() {
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout.contains("above bound"), "{}", run.stdout);
     reach(folder.path(), &["--what", "angle"]).assert_refused("no angle to vary");
+    let folder = folder_with(&small_slew());
+    reach(folder.path(), &["--within", "5"]).assert_refused("--within: only a detumble");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Stdio;
 
 use serde_json::json;
 
-use crate::program::{Run, command, files_in, folder_with, small_slew};
+use crate::program::{Run, command, files_in, folder_with, righting, small_slew};
 
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
@@ -34,6 +34,26 @@ fn a_full_disk_behind_stdout_is_said() {
     let full = File::options().write(true).open("/dev/full").expect("Linux has it");
     let output = command(folder.path()).arg("schema").stdout(full).output().expect("it starts");
     Run::from(output).assert_refused("cannot print results");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_plan_outlives_what_cannot_be_drawn() {
+    let folder = folder_with(&small_slew());
+    // The page alone is longer than 200 blocks; with the signal ignored, writing it fails.
+    let script = "trap '' XFSZ; ulimit -f 200; exec \"$0\" solve scenario.json --out out --json";
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", script, env!("CARGO_BIN_EXE_righting")]).current_dir(folder.path());
+    let run = Run::from(shell.output().expect("it starts"));
+    run.assert_refused("the plan in out is whole, but not what shows it: out/report.html: ");
+    assert_eq!(run.json()["exit_code"], 2);
+    let files = files_in(&folder.path().join("out"));
+    assert!(files.contains(&"attitude.svg".to_owned()), "{files:?}");
+    assert!(!files.contains(&"report.html".to_owned()), "{files:?}");
+    for again in ["verify", "report", "figures"] {
+        let run = righting(folder.path(), &[again, "out"]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    }
 }
 
 #[test]

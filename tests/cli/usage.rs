@@ -32,6 +32,10 @@ fn wrong_usage_exits_with_2_and_says_what_is_right() {
         (&["verify"], "<DIR>"),
         (&["verify", "a", "b"], "unexpected argument 'b'"),
         (&["schema", "sytem"], "system"),
+        // What would be ignored is refused.
+        (&["reach", "a.json", "--png"], "--out <DIR>"),
+        (&["solve", "a.json", "--out", "b", "--figures", "none", "--png"], "no figure to write"),
+        (&["export", "a", "--format", "npz", "--frame", "ICRF"], "an archive holds the plan alone"),
     ] {
         let run = run(arguments);
         assert_eq!(run.code, 2, "{arguments:?}");

@@ -94,6 +94,14 @@ pub enum Error {
         /// Why.
         source: io::Error,
     },
+    /// An earlier result could not be removed.
+    #[error("{}: cannot be replaced: {}", file.display(), plain(source))]
+    Remove {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
     /// The parts of a trajectory do not fit together.
     #[error("trajectory: {0}")]
     Shape(#[from] ShapeError),

@@ -41,7 +41,7 @@ pub fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Result<Strin
     Ok(text)
 }
 
-/// Replaces `file` by what `print` writes, or leaves it as it was.
+/// Replaces `file` by what `print` writes, or leaves it as it was, also when the machine stops.
 ///
 /// # Errors
 /// [`Error::Write`] if the folder is missing, read-only or full.
@@ -56,8 +56,22 @@ pub fn replace(
     let mut writer = BufWriter::new(temporary);
     print(&mut writer).map_err(failed)?;
     let temporary = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+    temporary.as_file().sync_data().map_err(failed)?;
     temporary.persist(file).map_err(|error| failed(error.error))?;
     Ok(())
+}
+
+/// Removes `file`, if it is there.
+///
+/// # Errors
+/// [`Error::Remove`] if it cannot be removed.
+pub fn remove(file: &Path) -> Result<(), Error> {
+    match std::fs::remove_file(file) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(Error::Remove { file: file.to_owned(), source })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A temporary file with the permissions of any new file, since it becomes one.
@@ -67,4 +81,37 @@ fn ordinary_file() -> Builder<'static, 'static> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_or_left_and_nothing_else_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.svg");
+        replace(&file, |writer| writer.write_all(b"first")).unwrap();
+        replace(&file, |writer| writer.write_all(b"second")).unwrap();
+        let torn = replace(&file, |writer| {
+            writer.write_all(b"thi")?;
+            Err(io::Error::from(io::ErrorKind::StorageFull))
+        });
+        assert!(torn.unwrap_err().to_string().contains("a.svg: cannot be written: "));
+        assert_eq!(std::fs::read(&file).unwrap(), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_not_there_is_removed_already() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.png");
+        std::fs::write(&file, "").unwrap();
+        remove(&file).unwrap();
+        assert!(!file.exists());
+        remove(&file).unwrap();
+        std::fs::create_dir(&file).unwrap();
+        let refused = remove(&file).unwrap_err().to_string();
+        assert!(refused.contains("a.png: cannot be replaced: "), "{refused}");
+    }
 }

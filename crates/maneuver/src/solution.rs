@@ -31,7 +31,8 @@ pub struct Solution {
     /// Value of the objective, in the scenario's weights.
     #[serde(with = "finite_or_null")]
     pub objective: f64,
-    /// Number of optimizer iterations.
+    /// Number of optimizer iterations on the asked grid; those of the starts and the coarser grids
+    /// before it are not among them.
     pub iterations: usize,
     /// Largest violation of any constraint of the nonlinear program, unscaled.
     #[serde(with = "finite_or_null")]
@@ -137,7 +138,7 @@ pub struct Timing {
     pub solve: f64,
     /// The independent check.
     pub verify: f64,
-    /// From the command to the files.
+    /// From the command to the plan's files; what shows the plan is drawn after them.
     pub total: f64,
 }
 

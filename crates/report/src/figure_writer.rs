@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use righting_maneuver::files;
+
+use crate::ReportError;
 use crate::png::PngPainter;
-use crate::{ReportError, write_whole};
 
 /// Writes figures.
 #[derive(Default)]
@@ -27,23 +29,25 @@ impl FigureWriter {
     }
 
     /// Writes a figure, given as the text of an SVG file called `name`, and where asked for its
-    /// PNG, called `name` with another extension; the files.
+    /// PNG, called `name` with another extension; the files. A PNG of an earlier figure never stays
+    /// beside it.
     ///
     /// # Errors
-    /// [`ReportError::Write`] and [`ReportError::Png`] with the path and the cause.
+    /// [`ReportError::File`] and [`ReportError::Png`] with the path and the cause.
     pub fn write(
         &self,
         directory: &Path,
         name: &str,
         svg: &str,
     ) -> Result<Vec<PathBuf>, ReportError> {
-        let mut files = vec![write_whole(directory, name, svg.as_bytes())?];
-        if let Some(painter) = &self.painter {
-            let name = Path::new(name).with_extension("png");
-            let failed = |problem| ReportError::Png { path: directory.join(&name), problem };
-            let png = painter.paint(svg).map_err(failed)?;
-            files.push(write_whole(directory, &name.to_string_lossy(), &png)?);
-        }
-        Ok(files)
+        let file = directory.join(name);
+        let png_file = file.with_extension("png");
+        files::remove(&png_file)?;
+        files::replace(&file, |writer| writer.write_all(svg.as_bytes()))?;
+        let Some(painter) = &self.painter else { return Ok(vec![file]) };
+        let failed = |problem| ReportError::Png { path: png_file.clone(), problem };
+        let png = painter.paint(svg).map_err(failed)?;
+        files::replace(&png_file, |writer| writer.write_all(&png))?;
+        Ok(vec![file, png_file])
     }
 }

@@ -10,7 +10,7 @@
 //! let folder = Path::new("out/demo");
 //! let plan = righting_maneuver::verify_directory(folder)?;
 //! let figure = righting_report::attitude_svg(&plan.solution, &plan.trajectory);
-//! righting_report::write_whole(folder, "attitude.svg", figure.as_bytes())?;
+//! righting_report::FigureWriter::svg().write(folder, "attitude.svg", &figure)?;
 //! print!("{}", righting_report::verification_summary(&plan.solution));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -33,7 +33,6 @@ mod error;
 mod errors;
 mod figure;
 mod figure_writer;
-mod files;
 mod joints;
 mod maneuvers;
 mod momentum;
@@ -64,7 +63,6 @@ pub use envelope::{EnvelopeOutlines, envelope_svg};
 pub use error::ReportError;
 pub use errors::errors_svg;
 pub use figure_writer::FigureWriter;
-pub use files::write_whole;
 pub use joints::joints_svg;
 pub use maneuvers::maneuvers_svg;
 pub use momentum::momentum_svg;

@@ -50,11 +50,19 @@ fn a_png_shows_the_text_of_its_figure_at_twice_the_size() {
         .unwrap();
     assert_eq!(ink_of_title(&folder.path().join("bare.png")), 0);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
+
+    // One that cannot be drawn leaves no picture of what was there before.
+    let vast = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1e9\" height=\"1e9\"/>";
+    let refused = writer.write(folder.path(), "bare.svg", vast).unwrap_err();
+    assert!(refused.to_string().ends_with("bare.png: the figure is too large"), "{refused}");
+    assert!(!folder.path().join("bare.png").exists());
 }
 
 #[test]
 fn without_being_asked_there_is_no_png() {
     let folder = tempfile::tempdir().unwrap();
+    // That of an earlier figure would show something else than the new one.
+    std::fs::write(folder.path().join("a.png"), "").unwrap();
     let files = FigureWriter::svg().write(folder.path(), "a.svg", "<svg/>").unwrap();
     assert_eq!(files, [folder.path().join("a.svg")]);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);

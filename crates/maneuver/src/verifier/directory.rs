@@ -10,7 +10,6 @@ use crate::outcome::objective;
 use crate::scenario::Scenario;
 use crate::solution::{SCHEMA, Solution, Terminal};
 use crate::trajectory::Trajectory;
-use crate::verification::Verification;
 
 /// Name of the solution file in a result folder.
 pub const SOLUTION_FILE: &str = "solution.json";
@@ -23,14 +22,12 @@ const REPORTED: f64 = 1e-6;
 /// A result folder, read and checked.
 #[derive(Clone, Debug)]
 pub struct Verified {
-    /// The contents of `solution.json`, with the outcome of the check that was made then.
+    /// The contents of `solution.json`, with the outcome of the check made now.
     pub solution: Solution,
     /// The scenario in it.
     pub scenario: Scenario,
     /// The contents of `trajectory.csv`.
     pub trajectory: Trajectory,
-    /// The outcome of the check made now.
-    pub verification: Verification,
 }
 
 /// Reads `solution.json` and `trajectory.csv` in `folder` and checks both: the trajectory as
@@ -39,7 +36,7 @@ pub struct Verified {
 ///
 /// # Errors
 /// Those of reading the two files. A plan that is wrong is no error: see
-/// [`Verification::passed`].
+/// [`Verification::passed`](crate::Verification::passed).
 pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
     let solution_file: PathBuf = folder.join(SOLUTION_FILE);
     let solution = Solution::read_json(&solution_file)?;
@@ -53,7 +50,8 @@ pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
     let trajectory = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?;
     let mut ledger = Ledger { report: verify(&scenario, &trajectory) };
     check_claims(&solution, &scenario, &trajectory, &mut ledger);
-    Ok(Verified { solution, scenario, trajectory, verification: ledger.finish() })
+    let solution = Solution { verification: ledger.finish(), ..solution };
+    Ok(Verified { solution, scenario, trajectory })
 }
 
 /// What `solution.json` says is what the trajectory shows.
