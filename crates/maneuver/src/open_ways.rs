@@ -59,8 +59,12 @@ fn missed(scenario: &Scenario, trajectory: &Trajectory) -> Option<Missed> {
 
 fn ways_to_target(scenario: &Scenario, trajectory: &Trajectory, missed: Missed) -> Vec<String> {
     let Missed { slew_rad, terminal } = missed;
-    let limits = active_limits(scenario, trajectory);
     let mut ways = vec![format!("misses its target by {:.3}\u{b0}", terminal.attitude_error_deg)];
+    if scenario.weights().attitude == 0.0 {
+        ways.push("nothing asks for the target: weights.attitude is 0".to_owned());
+        return ways;
+    }
+    let limits = active_limits(scenario, trajectory);
     if limits.is_empty() {
         ways.push(
             "no joint is at a limit most of the time: a smaller weights.control comes closer"

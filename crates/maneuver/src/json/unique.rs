@@ -30,8 +30,10 @@ pub(super) fn parse(text: &str) -> Result<Value, SyntaxError> {
     let mut source = serde_json::Deserializer::from_str(text);
     let tree: Result<Unique, _> = serde_path_to_error::deserialize(&mut source);
     let Unique(root) = tree.map_err(|error| {
+        // The last segment is unknown where the parser has left a value but met no next key.
         let path = error.path().to_string();
-        syntax_error(if path == "." { String::new() } else { shown_key(&path) }, error.inner())
+        let path = path.trim_end_matches('?').trim_end_matches('.');
+        syntax_error(if path.is_empty() { String::new() } else { shown_key(path) }, error.inner())
     })?;
     source.end().map_err(|error| syntax_error(String::new(), &error))?;
     Ok(root)
