@@ -9,7 +9,9 @@ use righting_maneuver::scenario::MAX_STARTS;
 use righting_maneuver::{Maneuver, Scenario};
 use righting_ocp::Control;
 use righting_report::{FigureWriter, reach_summary, reach_svg};
+use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats};
@@ -91,16 +93,26 @@ fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
 }
 
 /// What reach.json holds and `--json` prints.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
+#[schemars(title = "Righting reach")]
 struct Printed<'a> {
+    /// "righting.reach/1".
     schema: &'static str,
+    /// Name of the scenario.
     scenario: &'a str,
+    /// SHA-256 of the resolved scenario's compact JSON, hexadecimal.
     scenario_sha256: String,
+    /// What was varied.
     what: Quantity,
+    /// How far apart the last failure and the last success may stay: of durations in percent, of
+    /// angles in degrees.
     resolution: f64,
+    /// The weights.control of every solve.
     control_weight: f64,
+    /// Detumble: by how much the rate left may exceed its bound, %.
     #[serde(skip_serializing_if = "Option::is_none")]
     within_percent: Option<f64>,
+    /// Whether the search was stopped before its end.
     interrupted: bool,
     /// Present for durations; null if none succeeded.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,19 +120,31 @@ struct Printed<'a> {
     /// Present for angles; null if none succeeded.
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_angle_deg: Option<Option<f64>>,
+    /// The edge of what was found possible: durations, s, or angles, deg.
     bracket: Bracket,
+    /// Detumble: no motion that stops the arm can leave less angular rate, deg/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     bound_deg_s: Option<f64>,
+    /// Detumble: by how much the rate left by the best plan exceeds its bound, %.
     #[serde(skip_serializing_if = "Option::is_none")]
     closest_to_bound_percent: Option<f64>,
+    /// What stands in the way of more, and how sure that is.
     notes: &'a [String],
+    /// Everything tried, in order.
     tries: &'a [Try],
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Bracket {
+    /// The failure next to the successes; null if nothing failed.
     last_failing: Option<f64>,
+    /// The hardest of an unbroken row of successes; null if there is none.
     first_succeeding: Option<f64>,
+}
+
+/// The JSON Schema (draft 2020-12) of reach.json.
+pub fn schema() -> Value {
+    schema_for!(Printed<'_>).to_value()
 }
 
 /// Searches, writes and prints.

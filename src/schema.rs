@@ -1,13 +1,13 @@
-//! `righting schema`: the formats of the input files.
+//! `righting schema`: the formats of the files.
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::schema::{scenario_schema, system_schema, wheels_schema};
+use righting_maneuver::schema::{scenario_schema, solution_schema, system_schema, wheels_schema};
 use righting_sweep::sweep_schema;
 
 use crate::failure::Failure;
-use crate::output;
+use crate::{output, reach};
 
-/// Print the JSON Schema of an input file.
+/// Print the JSON Schema of a file, input or result.
 #[derive(Args)]
 pub struct Arguments {
     /// Which file.
@@ -25,6 +25,10 @@ enum File {
     Wheels,
     /// Many maneuvers.
     Sweep,
+    /// The outcome of a solve, solution.json.
+    Solution,
+    /// The outcome of a search for what is possible, reach.json.
+    Reach,
 }
 
 /// Prints the schema.
@@ -34,5 +38,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         File::System => system_schema(),
         File::Wheels => wheels_schema(),
         File::Sweep => sweep_schema(),
+        File::Solution => solution_schema(),
+        File::Reach => reach::schema(),
     })
 }

@@ -7,6 +7,8 @@ mod documents;
 mod envelope;
 mod export;
 mod figures;
+#[path = "../../crates/maneuver/tests/support/json_schema.rs"]
+mod json_schema;
 mod library;
 mod machine;
 #[cfg(unix)]

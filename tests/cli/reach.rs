@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::json_schema::violation;
 use crate::program::{Run, files_in, folder_with, righting, small_detumble, small_slew};
 
 fn reach(folder: &std::path::Path, more: &[&str]) -> Run {
@@ -30,6 +31,9 @@ fn the_shortest_duration_is_told_with_all_that_was_tried() {
         let duration = tried["duration_s"].as_f64().expect("a duration");
         assert_eq!(tried["succeeded"], duration >= pass, "{tried}");
     }
+
+    let schema = righting(folder.path(), &["schema", "reach"]).json();
+    assert_eq!(violation(&schema, &found), None);
 
     // The plan at the edge is an ordinary result, of the scenario with that duration.
     let plan = righting(folder.path(), &["verify", "out/plan", "--json"]);

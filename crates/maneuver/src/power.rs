@@ -18,7 +18,7 @@ use serde::Serialize;
 use crate::dormand_prince::DormandPrince;
 use crate::error::ShapeError;
 use crate::scenario::Scenario;
-use crate::solution::finite_or_null;
+use crate::solution::FiniteOrNull;
 use crate::trajectory::{Interval, Node, Trajectory};
 
 /// The paper's overall actuator efficiency η.
@@ -68,16 +68,16 @@ impl Accounting {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Consumption {
     /// The most at any time.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub peak_w: f64,
     /// When.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub peak_time_s: f64,
     /// Its mean over the maneuver.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub mean_w: f64,
     /// Its integral.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub energy_j: f64,
 }
 

@@ -16,13 +16,14 @@ mod trial;
 use std::time::Duration;
 
 use righting_ocp::Control;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::detumble::rate_bound_rad_s;
 use crate::error::Error;
 use crate::planner::{Plan, PlanError};
 use crate::scenario::{LONGEST_S, Maneuver, Scenario};
-use crate::solution::{IterationRecord, Status, Terminal, finite_or_null};
+use crate::solution::{FiniteOrNull, IterationRecord, Status, Terminal};
 use crate::verification::Verification;
 use frontier::{Frontier, Line, Resolution};
 use trial::Trials;
@@ -35,7 +36,7 @@ pub const SHORTEST: f64 = 0.01;
 pub const LARGEST_ANGLE_DEG: f64 = 180.0;
 
 /// What is varied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// The duration of a slew or a detumble.
@@ -105,7 +106,7 @@ pub struct Reached {
 }
 
 /// One duration or angle that was tried, and the best that its solves came to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Try {
     /// Duration, s.
     pub duration_s: f64,
@@ -126,7 +127,7 @@ pub struct Try {
     /// Optimizer iterations of all solves together.
     pub iterations: usize,
     /// Objective.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub objective: f64,
     /// What the last node reached.
     #[serde(flatten)]
@@ -159,7 +160,7 @@ impl Reach {
 }
 
 /// What a plan started from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StartedFrom {
     /// The scenario's own guess.

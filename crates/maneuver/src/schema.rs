@@ -1,8 +1,9 @@
-//! JSON Schemas of the files a user writes, for editors and checkers.
+//! JSON Schemas of the files a user writes or reads, for editors and checkers.
 
 use serde_json::Value;
 
 use crate::file;
+use crate::solution::Solution;
 use crate::wheels::WheelFile;
 
 /// The JSON Schema (draft 2020-12) of a scenario file.
@@ -13,6 +14,11 @@ pub fn scenario_schema() -> Value {
 /// The JSON Schema (draft 2020-12) of a system file.
 pub fn system_schema() -> Value {
     schemars::schema_for!(file::System).to_value()
+}
+
+/// The JSON Schema (draft 2020-12) of `solution.json`.
+pub fn solution_schema() -> Value {
+    schemars::schema_for!(Solution).to_value()
 }
 
 /// The JSON Schema (draft 2020-12) of a file of wheels.

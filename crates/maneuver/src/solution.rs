@@ -1,8 +1,10 @@
 //! What a solve hands back besides the trajectory: the contents of `solution.json`.
 
+use std::borrow::Cow;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::Error;
 use crate::json::Document;
@@ -16,9 +18,10 @@ pub const SCHEMA: &str = "righting.solution/1";
 ///
 /// A number that is not finite (the objective of a solve that broke down) is `null` in the file and
 /// NaN here.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "Righting solution")]
 pub struct Solution {
-    /// [`SCHEMA`].
+    /// "righting.solution/1".
     pub schema: String,
     /// The scenario with its system inline and every default filled in.
     pub scenario: file::Scenario,
@@ -29,13 +32,13 @@ pub struct Solution {
     /// How the optimizer ended.
     pub status: Status,
     /// Value of the objective, in the scenario's weights.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub objective: f64,
     /// Number of optimizer iterations on the asked grid; those of the starts and the coarser grids
     /// before it are not among them.
     pub iterations: usize,
     /// Largest violation of any constraint of the nonlinear program, unscaled.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub constraint_violation: f64,
     /// What the last node reached.
     pub terminal: Terminal,
@@ -58,7 +61,7 @@ pub struct Solution {
 }
 
 /// What computed a solution.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Versions {
     /// This program.
     pub righting: String,
@@ -69,7 +72,7 @@ pub struct Versions {
 }
 
 /// How the optimizer ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Status {
@@ -105,24 +108,24 @@ impl Status {
 }
 
 /// What the last node reached.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Terminal {
     /// Norm of the vector part of the attitude error quaternion; 0 for a detumble.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub attitude_error: f64,
     /// Angle of the attitude error, deg.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub attitude_error_deg: f64,
     /// Norm of the base's angular rate, deg/s.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub angular_rate_deg_s: f64,
     /// Norm of the joint rates, all joints together, deg/s.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub joint_rate_deg_s: f64,
 }
 
 /// Wall-clock times, s.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Timing {
     /// Reading and checking the scenario.
     pub load: f64,
@@ -143,27 +146,27 @@ pub struct Timing {
 }
 
 /// The optimizer after one iteration.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IterationRecord {
     /// Number of the iteration; 0 is the starting point.
     pub iteration: usize,
     /// Objective.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub objective: f64,
     /// Primal infeasibility, unscaled.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub primal_infeasibility: f64,
     /// Dual infeasibility.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub dual_infeasibility: f64,
     /// Barrier parameter µ.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub barrier_parameter: f64,
     /// Primal step size.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub primal_step: f64,
     /// Dual step size.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub dual_step: f64,
 }
 
@@ -190,18 +193,28 @@ impl Solution {
 }
 
 /// Non-finite numbers as `null`, which JSON has no other word for.
-pub(crate) mod finite_or_null {
-    use serde::{Deserialize, Deserializer, Serializer};
+pub(crate) struct FiniteOrNull;
 
+impl FiniteOrNull {
     pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        if value.is_finite() {
-            serializer.serialize_f64(*value)
-        } else {
-            serializer.serialize_none()
-        }
+        value.is_finite().then_some(*value).serialize(serializer)
     }
 
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    }
+}
+
+impl JsonSchema for FiniteOrNull {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        Option::<f64>::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Option::<f64>::json_schema(generator)
     }
 }

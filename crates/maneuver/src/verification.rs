@@ -2,37 +2,38 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::solution::finite_or_null;
+use crate::solution::FiniteOrNull;
 
 /// Outcome of the independent check.
 ///
 /// The first five numbers compare the trajectory with a second integration of the equations of
 /// motion from its first node and its controls alone.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Verification {
     /// Whether every check passed.
     pub passed: bool,
     /// Largest change of the angular momentum along the trajectory's nodes, relative to the largest
     /// momentum of the arm or of the system along it.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub momentum_drift: f64,
     /// Largest angle between the trajectory's attitude and the second integration's, rad.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub attitude_mismatch: f64,
     /// Largest difference in a joint angle, rad.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub joint_mismatch: f64,
     /// Largest difference in the base's position, m.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub position_mismatch: f64,
     /// Every check, the worst place of each.
     pub checks: Vec<Check>,
 }
 
 /// One check at the place where it is closest to failing or fails most.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Check {
     /// What was checked.
     pub name: String,
@@ -40,7 +41,7 @@ pub struct Check {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// The value at the worst place.
-    #[serde(with = "finite_or_null")]
+    #[serde(with = "FiniteOrNull")]
     pub value: f64,
     /// What the value must not exceed, or must not fall below.
     pub limit: f64,
@@ -58,7 +59,7 @@ pub struct Check {
 }
 
 /// Which side of its limit a value must be on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Sense {
     /// The value must not exceed the limit.

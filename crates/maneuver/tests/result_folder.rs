@@ -5,9 +5,11 @@ mod support;
 use std::fs;
 use std::path::Path;
 
+use righting_maneuver::schema::solution_schema;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_maneuver::{Error, Solution, verify_directory};
 use serde_json::{Value, json};
+use support::json_schema::violation;
 use support::{shipped, solution_of, true_slew, varied};
 use tempfile::TempDir;
 
@@ -48,6 +50,11 @@ fn an_honest_folder_passes() {
     assert_eq!(now.checks[..then.checks.len()], then.checks);
     assert_eq!(now.attitude_mismatch, then.attitude_mismatch);
     assert!(verified.solution.constraint_violation.is_nan(), "not a number is null and back");
+    let text = fs::read_to_string(folder.path().join(SOLUTION_FILE)).unwrap();
+    let mut written: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(violation(&solution_schema(), &written), None);
+    written["verification"]["checks"][0]["limit"] = json!("wide");
+    assert!(violation(&solution_schema(), &written).is_some());
 }
 
 #[test]
