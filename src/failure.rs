@@ -1,6 +1,6 @@
 //! Everything that ends a command with an exit code other than 0.
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 
 use righting_maneuver::verifier::ATTITUDE_ERROR;
@@ -128,9 +128,14 @@ impl Failure {
             Self::Sweep(SweepError::Occupied { .. }) => {
                 Some("add --resume to go on from there, or name another folder with --out")
             }
-            Self::Sweep(SweepError::Write { .. }) => {
-                Some("what is recorded is safe: make room, then run it again with --resume")
-            }
+            Self::Sweep(SweepError::Write { source, .. }) => Some(match source.kind() {
+                ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
+                    "what is recorded is safe: make it writable, then go on (a whole sweep with --resume)"
+                }
+                _ => {
+                    "what is recorded is safe: make room, then go on (a whole sweep with --resume)"
+                }
+            }),
             Self::Report(ReportError::NoPng) => {
                 Some("build it with `cargo build --release --features png`")
             }

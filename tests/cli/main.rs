@@ -7,6 +7,7 @@ mod documents;
 mod envelope;
 mod export;
 mod figures;
+mod full_disk;
 #[path = "../../crates/maneuver/tests/support/json_schema.rs"]
 mod json_schema;
 mod library;

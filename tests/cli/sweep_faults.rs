@@ -134,6 +134,11 @@ fn a_killed_parent_leaves_no_worker_behind() {
 
 #[test]
 fn a_file_that_cannot_grow_stops_the_sweep_cleanly() {
+    assert_stops_where_files_cannot_grow();
+}
+
+/// A limit on the size of files: what a full disk is without one.
+pub fn assert_stops_where_files_cannot_grow() {
     let folder = folder_with_sweep(&small_sweep(25));
     let limited = |blocks: &str, out: &str| {
         let script = format!(
