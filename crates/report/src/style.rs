@@ -68,8 +68,8 @@ pub const TARGET_DASH: &str = "1.5 3";
 
 /// Room around the whole figure.
 pub const MARGIN: f64 = 14.0;
-/// Room left of a panel for its tick labels.
-pub const TICK_LABEL_WIDTH: f64 = 54.0;
+/// Room left of a panel for its tick labels, up to −2.0e−16.
+pub const TICK_LABEL_WIDTH: f64 = 64.0;
 /// Room left of a tick column for the rotated axis label.
 pub const AXIS_LABEL_WIDTH: f64 = 18.0;
 /// Room under the last row for tick labels and the time axis label.
