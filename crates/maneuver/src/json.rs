@@ -97,5 +97,7 @@ fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
         if prefixed { similar.max(0.9) } else { similar }
     };
     let best = candidates.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
-    (likeness(best) >= 0.5).then_some(*best)
+    // The first letter is seldom the wrong one.
+    let least = if best.chars().next() == name.chars().next() { 0.5 } else { 0.6 };
+    (likeness(best) >= least).then_some(*best)
 }

@@ -438,6 +438,8 @@ fn text_that_is_not_json_is_refused_with_line_and_column() {
         complaint(text);
     }
     assert!(complaint(&format!("{good} {{}}")).contains("trailing characters"));
+    let comma = complaint(&good.replacen("\n}", ",\n}", 1));
+    assert!(comma.starts_with("line ") && comma.ends_with("not JSON: trailing comma"), "{comma}");
     assert!(complaint(&"[".repeat(100_000)).contains("recursion limit"));
     assert!(complaint(&"{\"a\":".repeat(100_000)).contains("recursion limit"));
 }

@@ -52,6 +52,13 @@ fn where_limits_are_in_the_way_they_are_named_and_more_time_helps() {
 }
 
 #[test]
+fn a_slew_that_nothing_asks_for_says_so() {
+    let aimless = varied(&slew_in(30.0, 0.01), |file| file.weights.attitude = Some(0.0));
+    let notes = planned(&aimless).notes;
+    assert_eq!(notes[1..], ["nothing asks for the target: weights.attitude is 0"], "{notes:?}");
+}
+
+#[test]
 fn a_slew_that_arrives_has_nothing_to_say() {
     assert!(planned(&slew_in(30.0, 0.01)).notes.is_empty());
 }
