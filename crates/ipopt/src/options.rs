@@ -202,6 +202,15 @@ options! {
 
     /// How many second-order corrections to try for a step.
     max_soc: u32 = 4, "max_soc", Range::count(0.0);
+    /// After so many shortened steps in a row the watchdog takes full ones for a while, whatever
+    /// they do to objective and constraints; with zero it never does.
+    watchdog_shortened_iter_trigger: u32 =
+        10, "watchdog_shortened_iter_trigger", Range::count(0.0);
+    /// How many steps the watchdog takes before it goes back to where it began.
+    watchdog_trial_iter_max: u32 = 3, "watchdog_trial_iter_max", Range::count(1.0);
+    /// A step that has been shortened so many times is taken, whatever it does to objective and
+    /// constraints; none if negative.
+    accept_after_max_steps: i32 = -1, "accept_after_max_steps", Range::count(-1.0);
     /// Whether infeasibility is expected, which is then found out sooner.
     expect_infeasible: bool = false, "expect_infeasible_problem";
     /// Whether the first iteration is already one of the restoration phase.

@@ -63,7 +63,7 @@ pub use layout::{Dimensions, Layout};
 pub use nlp::MultipleShooting;
 pub use point::Point;
 pub use problem::{ControlProblem, Interval};
-pub use refine::{Rung, close_guess_settings, refine, warm_start_settings};
+pub use refine::{Rung, close_guess_settings, refine};
 pub use samples::Samples;
 pub use solution::Solution;
 pub use solve::{LinearSolver, Settings, UsedLinearSolver};

@@ -12,17 +12,35 @@ use crate::start::Start;
 /// How close to their bounds the variables and multipliers of a warm start may stay: it is nearly
 /// optimal, and pushing it back inside would undo that.
 const WARM_PUSH: f64 = 1e-9;
-/// Barrier parameter of a warm start: nearly that of a solved problem.
-const WARM_BARRIER: f64 = 1e-8;
-
 /// The same for a guess without multipliers, which are only estimated.
 const GUESS_PUSH: f64 = 1e-6;
+/// Barrier parameter of such a guess.
 const GUESS_BARRIER: f64 = 1e-6;
+/// Barrier parameter on the grids between the first and the asked one. Their active bounds are not yet
+/// those of the plan: further from them there are fewer steps that a bound cuts short.
+const BETWEEN_BARRIER: f64 = 5e-7;
+/// Tolerance there: what is solved more tightly, the next grid changes again.
+const BETWEEN_TOLERANCE: f64 = 1e-6;
 
-/// Settings for a start that is nearly optimal.
-pub fn warm_start_settings(settings: &Settings) -> Settings {
+/// Settings for a grid on the way, whose solution is only a start.
+fn between_settings(settings: &Settings) -> Settings {
+    let mut between = warm_start_settings(settings, BETWEEN_BARRIER);
+    between.ipopt.tolerance = settings.ipopt.tolerance.max(BETWEEN_TOLERANCE);
+    // The first barrier problem is the only one.
+    between.ipopt.barrier_tol_factor = 1.0;
+    between
+}
+
+/// Settings for the asked grid: they begin at the barrier parameter that Ipopt ends with.
+fn last_settings(settings: &Settings) -> Settings {
+    let Options { tolerance, barrier_tol_factor, .. } = settings.ipopt;
+    warm_start_settings(settings, tolerance / (barrier_tol_factor + 1.0))
+}
+
+/// Settings for a start with multipliers, at a barrier parameter.
+fn warm_start_settings(settings: &Settings, barrier_parameter: f64) -> Settings {
     let ipopt = Options {
-        mu_init: WARM_BARRIER,
+        mu_init: barrier_parameter,
         warm_start_bound_push: WARM_PUSH,
         warm_start_bound_frac: WARM_PUSH,
         warm_start_slack_bound_push: WARM_PUSH,
@@ -74,22 +92,22 @@ pub fn refine(
     settings: &Settings,
     mut on_iteration: impl FnMut(&Iteration) -> Control,
 ) -> Result<(Solution, Vec<Rung>), OcpError> {
-    let settings = warm_start_settings(settings);
     let mut rungs = Vec::with_capacity(between.len() + 1);
-    let mut climb = |steps: usize, point: Point| -> Result<Solution, OcpError> {
+    let mut climb = |steps: usize, point: Point, settings: &Settings| -> Result<_, OcpError> {
         let mut program = MultipleShooting::new(functions, grid.with_steps(steps)?, initial)?;
         let start = Start::Warm(point.resampled(program.initial_state(), steps));
-        let solution = program.solve(&start, &settings, &mut on_iteration)?;
+        let solution = program.solve(&start, settings, &mut on_iteration)?;
         rungs.push(Rung { steps, status: solution.status, iterations: solution.iterations() });
         Ok(solution)
     };
+    let on_the_way = between_settings(settings);
     for &steps in between {
-        let solution = climb(steps, point)?;
+        let solution = climb(steps, point, &on_the_way)?;
         if !solution.status.is_success() {
             return Ok((solution, rungs));
         }
         point = solution.point;
     }
-    let solution = climb(grid.steps(), point)?;
+    let solution = climb(grid.steps(), point, &last_settings(settings))?;
     Ok((solution, rungs))
 }

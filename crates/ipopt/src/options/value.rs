@@ -38,6 +38,12 @@ impl Field for u32 {
     }
 }
 
+impl Field for i32 {
+    fn value(self) -> OptionValue {
+        OptionValue::Integer(self)
+    }
+}
+
 impl Field for bool {
     fn value(self) -> OptionValue {
         OptionValue::Text(if self { "yes" } else { "no" }.to_owned())

@@ -34,6 +34,13 @@ const MOST_COARSE_STEPS: usize = 120;
 const COARSE_TOLERANCE: f64 = 1e-7;
 /// Iterations after which a start on the coarse grid is given up.
 const COARSE_ITERATIONS: u32 = 300;
+/// A step that is still too long there after so many halvings is taken all the same.
+const COARSE_HALVINGS: i32 = 5;
+/// After so many shortened steps Ipopt's watchdog tries full ones (by itself after 10). Detumbles end in
+/// curved valleys, along which the line search would creep.
+const WATCHDOG_TRIGGER: u32 = 3;
+/// And so many of them (by itself 3): a step out of the valley takes some to come back to its floor.
+const WATCHDOG_TRIALS: u32 = 8;
 /// How much finer than the grid before it a grid may be.
 const REFINEMENT: usize = 6;
 /// Swings that the automatic guess tries beside the constant one.
@@ -261,6 +268,9 @@ fn coarse_settings(scenario: &Scenario) -> Settings {
     let mut settings = settings(scenario);
     settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
     settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
+    // From so far away corrections of single steps save none.
+    settings.ipopt.max_soc = 0;
+    settings.ipopt.accept_after_max_steps = COARSE_HALVINGS;
     settings.retry_at_iteration_limit = false;
     settings
 }
@@ -271,6 +281,8 @@ fn settings(scenario: &Scenario) -> Settings {
         ipopt: Options {
             tolerance: solver.tolerance,
             max_iterations: solver.max_iterations as u32,
+            watchdog_shortened_iter_trigger: WATCHDOG_TRIGGER,
+            watchdog_trial_iter_max: WATCHDOG_TRIALS,
             ..Options::default()
         },
         linear_solver: match solver.linear_solver {
