@@ -30,8 +30,12 @@ const COARSE_STEPS: usize = 20;
 const COARSE_TURN_RAD: f64 = 0.46;
 /// But no more than these.
 const MOST_COARSE_STEPS: usize = 120;
-/// Tolerance there: tight enough for the barrier not to change the order of small objectives.
+/// Tolerance there: tight enough for the barrier not to change the order of small objectives …
 const COARSE_TOLERANCE: f64 = 1e-7;
+/// … and of a detumble, what not to act would cost times this, …
+const DETUMBLE_TOLERANCE: f64 = 1e-6;
+/// … up to this.
+const MOST_DETUMBLE_TOLERANCE: f64 = 2e-5;
 /// Iterations after which a start on the coarse grid is given up.
 const COARSE_ITERATIONS: u32 = 300;
 /// A step that is still too long there after so many halvings is taken all the same.
@@ -266,13 +270,24 @@ fn guesses(scenario: &Scenario, swings: &Swings<'_>) -> Vec<Guess> {
 
 fn coarse_settings(scenario: &Scenario) -> Settings {
     let mut settings = settings(scenario);
-    settings.ipopt.tolerance = settings.ipopt.tolerance.max(COARSE_TOLERANCE);
+    settings.ipopt.tolerance = settings.ipopt.tolerance.max(coarse_tolerance(scenario));
     settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
     // From so far away corrections of single steps save none.
     settings.ipopt.max_soc = 0;
     settings.ipopt.accept_after_max_steps = COARSE_HALVINGS;
     settings.retry_at_iteration_limit = false;
     settings
+}
+
+fn coarse_tolerance(scenario: &Scenario) -> f64 {
+    match scenario.maneuver() {
+        Maneuver::Slew(_) => COARSE_TOLERANCE,
+        Maneuver::Detumble => {
+            let rate_rad_s = scenario.initial().angular_rate_rad_s.norm();
+            let of_drifting = scenario.weights().angular_rate * rate_rad_s * rate_rad_s;
+            (DETUMBLE_TOLERANCE * of_drifting).clamp(COARSE_TOLERANCE, MOST_DETUMBLE_TOLERANCE)
+        }
+    }
 }
 
 fn settings(scenario: &Scenario) -> Settings {
