@@ -79,9 +79,18 @@ const ALL: [&str; 13] = [
 
 /// Names of everything that belongs to a plan.
 fn all() -> impl Iterator<Item = PathBuf> {
-    let figures =
-        ALL.into_iter().map(Path::new).filter(|name| name.extension() == Some("svg".as_ref()));
-    ALL.into_iter().map(PathBuf::from).chain(figures.map(|name| name.with_extension("png")))
+    let others = ALL.into_iter().map(PathBuf::from).filter(|name| !is_figure(name));
+    others.chain(figures())
+}
+
+/// Names of the figures of a plan, as SVG and as PNG.
+fn figures() -> impl Iterator<Item = PathBuf> {
+    let figures = ALL.into_iter().map(PathBuf::from).filter(|name| is_figure(name));
+    figures.flat_map(|name| [name.with_extension("png"), name])
+}
+
+fn is_figure(name: &Path) -> bool {
+    name.extension() == Some("svg".as_ref())
 }
 
 impl ResultFiles {
@@ -146,7 +155,16 @@ impl OutputFolder {
 
     /// Removes an earlier plan, so that a solve without one leaves none that looks like its own.
     pub fn remove_earlier_plan(&self) -> Result<(), Failure> {
-        for name in all() {
+        self.remove(all())
+    }
+
+    /// Removes the figures of an earlier plan: the next one may not have all of them.
+    pub fn remove_earlier_figures(&self) -> Result<(), Failure> {
+        self.remove(figures())
+    }
+
+    fn remove(&self, names: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
+        for name in names {
             files::remove(&self.folder.join(name))?;
         }
         Ok(())

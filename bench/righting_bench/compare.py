@@ -31,6 +31,8 @@ QUICK_PAPER = ("slew_2dof", "detumble_2dof")
 QUICK_REDUCED = ("slew_2dof", "detumble_2dof", "slew_4dof")
 # Runs of ours before and again after each CasADi run.
 REPEATS = 3
+# A CasADi solve shorter than this, in seconds, is as easily disturbed as ours: the median of as many runs.
+SHORT_S = 1.0
 # Load average above which wall-clock times are no longer this program's alone.
 BUSY = 0.5
 
@@ -115,7 +117,7 @@ def compare(root: Path, program: Path, scope: Scope) -> None:
         kept.keep(run, f"ours/{name}/default", summarise(before))
         for solve in scope.solves(name):
             _announce(solve.key(name))
-            outcome = _casadi(root, ["casadi", str(path), *solve.arguments(), "--json"])
+            outcome = _median_solve(root, ["casadi", str(path), *solve.arguments(), "--json"])
             after = ours()
             if outcome:
                 kept.keep(run, solve.key(name), {**outcome, "ours": summarise(before + after)})
@@ -148,6 +150,16 @@ def _growth(root: Path, program: Path, kept: Measurements, run: str) -> None:
         for line in done.stdout.splitlines():
             record = json.loads(line)
             kept.keep(run, f"{kind}/{record[key]}", record)
+
+
+def _median_solve(root: Path, arguments: list[str]) -> dict | None:
+    """The outcome of one solve; of a short one that of median length among several."""
+    first = _casadi(root, arguments)
+    if not first or first["solve_s"] >= SHORT_S:
+        return first
+    again = [_casadi(root, arguments) for _ in range(REPEATS - 1)]
+    outcomes = sorted((one for one in (first, *again) if one), key=lambda one: one["solve_s"])
+    return outcomes[len(outcomes) // 2]
 
 
 def _casadi(root: Path, arguments: list[str]) -> dict | list | None:

@@ -37,8 +37,9 @@ def _head(kept: Measurements) -> str:
         "All times are wall-clock seconds. *Ours* is `timing_s` trace + guess + solve of `righting solve`, "
         "from parsed scenario to trajectory, the median of runs just before and just after the CasADi run "
         "beside it; *process* is the whole command with verification and files. CasADi's time is its solve "
-        "call alone; building and compiling come on top and are given apart. Both run with BLAS and OpenMP "
-        "on one thread.",
+        "call alone, the median of three where it is shorter than 1 s; building and compiling come on top and "
+        "are given apart. Compiled code is kept: *compile* is the time of the run that made it, whatever else "
+        "the machine did then. Both run with BLAS and OpenMP on one thread.",
         "",
         "CasADi is set up as its experts would: stage functions as flattened SX expressions with common "
         "subexpressions removed, mapped over the stages; exact Hessian; decision vector and constraints in "

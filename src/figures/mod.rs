@@ -66,6 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Verified { solution, scenario, trajectory } = verify_directory(folder)?;
     let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
     let shown = Shown { figures: FigureSet::All, writer: &writer, page: false };
+    folder.remove_earlier_figures()?;
     let files = draw(folder.path(), shown, &scenario, &solution, &trajectory)?;
     let listed: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
     output::print(&listed)?;

@@ -11,9 +11,13 @@ fn every_figure_of_a_plan_is_drawn_with_units() {
     for scenario in [small_slew(), small_detumble()] {
         let folder = folder_with(&scenario);
         assert_eq!(solve(folder.path()).code, 0);
+        let drawn = folder.path().join("drawn");
+        std::fs::create_dir(&drawn).expect("a new folder");
+        for of_another_plan in ["clearances.svg", "clearances.png"] {
+            std::fs::write(drawn.join(of_another_plan), "").expect("written");
+        }
         let run = righting(folder.path(), &["figures", "out", "--out", "drawn"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-        let drawn = folder.path().join("drawn");
         assert_eq!(files_in(&drawn), FIGURES);
         assert_eq!(run.stdout.lines().count(), FIGURES.len());
         let read = |name: &str| std::fs::read_to_string(drawn.join(name)).expect("written");
