@@ -7,7 +7,7 @@
 # Usage: scripts/test-slurm.sh [PROGRAM]
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-program=${1:-$root/target/release/righting}
+program=${1:-${CARGO_TARGET_DIR:-$root/target}/release/righting}
 shards=8
 
 for needed in slurmctld slurmd sbatch squeue; do
