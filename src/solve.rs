@@ -189,8 +189,9 @@ fn show(
     solution: &Solution,
     trajectory: &Trajectory,
 ) -> Result<ResultFiles, Failure> {
-    let figures = draw(folder.path(), shown, scenario, solution, trajectory)?;
-    let page = shown.page.then(|| report_html(scenario, solution, trajectory));
+    let Shown { figures, writer, page } = shown;
+    let figures = draw(folder.path(), figures, writer, scenario, solution, trajectory)?;
+    let page = page.then(|| report_html(scenario, solution, trajectory));
     let page = page.map(|page| folder.write(REPORT_FILE, page.as_bytes())).transpose()?;
     Ok(ResultFiles::of_plan(folder, figures, page))
 }

@@ -15,8 +15,8 @@ use righting_maneuver::{
     WheelArray, verify_directory,
 };
 use righting_report::{
-    PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg, momentum_svg,
-    power_svg, sparsity_svg,
+    FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
+    momentum_svg, power_svg, sparsity_svg,
 };
 
 pub use self::formats::Formats;
@@ -26,7 +26,6 @@ use crate::output_folder::{
     ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
     POWER_FIGURE_FILE, SPARSITY_FILE,
 };
-use crate::solve::Shown;
 
 /// Intervals whose part of the KKT matrix is drawn.
 const SPARSITY_STEPS: usize = 4;
@@ -65,9 +64,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let Verified { solution, scenario, trajectory } = verify_directory(folder)?;
     let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
-    let shown = Shown { figures: FigureSet::All, writer: &writer, page: false };
     folder.remove_earlier_figures()?;
-    let files = draw(folder.path(), shown, &scenario, &solution, &trajectory)?;
+    let files = draw(folder.path(), FigureSet::All, &writer, &scenario, &solution, &trajectory)?;
     let listed: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
     output::print(&listed)?;
     Failure::of_verification(&solution).map_or(Ok(()), Err)
@@ -76,7 +74,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Draws the figures of a plan into a folder; the files, in the order a reader wants them.
 pub fn draw(
     folder: &Path,
-    Shown { figures: set, writer, .. }: Shown<'_>,
+    set: FigureSet,
+    writer: &FigureWriter,
     scenario: &Scenario,
     solution: &Solution,
     trajectory: &Trajectory,

@@ -16,40 +16,49 @@ const LEAST_POSITION_SPAN_M: f64 = 1e-15;
 /// The figure of the momentum of the arm's motion, and of what integration makes of the conserved
 /// angular momentum and center of mass, as an SVG document.
 pub fn momentum_svg(solution: &Solution, trajectory: &Trajectory, histories: &Histories) -> String {
-    let arm = &histories.arm_momentum_n_m_s;
-    let largest = |vectors: &[Vector3<f64>]| vectors.iter().map(Vector3::norm).fold(0.0, f64::max);
     let momentum_drift = from_the_first(&histories.angular_momentum_n_m_s);
     let wander = from_the_first(&histories.center_of_mass_m);
     let panels = vec![
-        Panel {
-            heading: "Momentum of the arm relative to the base, body axes".into(),
-            axis_label: "Momentum [N m s]",
-            note: format!("at most {}", short(largest(arm))),
-            curves: components(arm),
-            least_span: LEAST_MOMENTUM_SPAN_N_M_S,
-            ..Panel::default()
-        },
-        Panel {
-            heading: "Drift of the system's angular momentum, inertial axes".into(),
-            axis_label: "Drift [N m s]",
-            note: format!("at most {}", short(largest(&momentum_drift))),
-            curves: components(&momentum_drift),
-            least_span: LEAST_MOMENTUM_SPAN_N_M_S,
-            ..Panel::default()
-        },
-        Panel {
-            heading: "Drift of the system's center of mass, inertial axes".into(),
-            axis_label: "Drift [m]",
-            note: format!("at most {}", short(largest(&wander))),
-            curves: components(&wander),
-            least_span: LEAST_POSITION_SPAN_M,
-            ..Panel::default()
-        },
+        panel(
+            "Momentum of the arm relative to the base, body axes",
+            "Momentum [N m s]",
+            &histories.arm_momentum_n_m_s,
+            LEAST_MOMENTUM_SPAN_N_M_S,
+        ),
+        panel(
+            "Drift of the system's angular momentum, inertial axes",
+            "Drift [N m s]",
+            &momentum_drift,
+            LEAST_MOMENTUM_SPAN_N_M_S,
+        ),
+        panel(
+            "Drift of the system's center of mass, inertial axes",
+            "Drift [m]",
+            &wander,
+            LEAST_POSITION_SPAN_M,
+        ),
     ];
     let (title, subtitle) = heading(solution);
     let times = trajectory.nodes().iter().map(|node| node.time_s).collect();
     Figure { title, subtitle, places: times, panel_size: PANEL_SIZE, panels, ..Figure::default() }
         .render()
+}
+
+fn panel(
+    heading: &str,
+    axis_label: &'static str,
+    vectors: &[Vector3<f64>],
+    least_span: f64,
+) -> Panel {
+    let largest = vectors.iter().map(Vector3::norm).fold(0.0, f64::max);
+    Panel {
+        heading: heading.to_owned(),
+        axis_label,
+        note: format!("at most {}", short(largest)),
+        curves: components(vectors),
+        least_span,
+        ..Panel::default()
+    }
 }
 
 fn from_the_first(vectors: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
