@@ -5,21 +5,35 @@ use crate::{
     VectorName,
 };
 
-/// A problem's declarations, checked.
-pub(crate) struct Declarations {
-    pub(crate) variables: usize,
-    pub(crate) constraints: usize,
-    pub(crate) x_lower: Vec<f64>,
-    pub(crate) x_upper: Vec<f64>,
-    pub(crate) g_lower: Vec<f64>,
-    pub(crate) g_upper: Vec<f64>,
-    pub(crate) jacobian: TripletStructure,
-    pub(crate) hessian: TripletStructure,
-    pub(crate) scaling: Option<Scaling>,
+/// A problem's declarations, checked: what a solver may rely on.
+#[derive(Debug, Clone)]
+pub struct Declarations {
+    /// n
+    pub variables: usize,
+    /// m
+    pub constraints: usize,
+    /// Least values of the variables (n).
+    pub x_lower: Vec<f64>,
+    /// Greatest values of the variables (n), none below the least.
+    pub x_upper: Vec<f64>,
+    /// Least values of the constraints (m).
+    pub g_lower: Vec<f64>,
+    /// Greatest values of the constraints (m), none below the least.
+    pub g_upper: Vec<f64>,
+    /// Where ∂g/∂x may be nonzero, within m rows and n columns.
+    pub jacobian: TripletStructure,
+    /// Where the Lagrangian's Hessian may be nonzero, within the lower triangle.
+    pub hessian: TripletStructure,
+    /// The problem's own scaling.
+    pub scaling: Option<Scaling>,
 }
 
 impl Declarations {
-    pub(crate) fn of<P: Problem + ?Sized>(problem: &P) -> Result<Self, SolveError> {
+    /// Asks the problem and checks its answers.
+    ///
+    /// # Errors
+    /// [`SolveError`] for what Ipopt would refuse, or read beyond.
+    pub fn of<P: Problem + ?Sized>(problem: &P) -> Result<Self, SolveError> {
         let Dimensions { variables, constraints } = problem.dimensions();
         if variables == 0 {
             return Err(SolveError::NoVariables);
@@ -66,7 +80,11 @@ impl Declarations {
         Ok(())
     }
 
-    pub(crate) fn check_start(&self, start: &Start) -> Result<(), SolveError> {
+    /// Checks that a start fits the problem, and is made of finite numbers.
+    ///
+    /// # Errors
+    /// [`SolveError`] where it does not.
+    pub fn check_start(&self, start: &Start) -> Result<(), SolveError> {
         check_finite(VectorName::Start, &start.x, self.variables)?;
         if let Some(Multipliers { constraints, lower, upper }) = &start.multipliers {
             check_finite(VectorName::ConstraintMultipliers, constraints, self.constraints)?;
@@ -77,7 +95,7 @@ impl Declarations {
     }
 
     /// By how much a point leaves its bounds at most; NaN if that is not known.
-    pub(crate) fn violation(&self, x: &[f64], g: &[f64]) -> f64 {
+    pub fn violation(&self, x: &[f64], g: &[f64]) -> f64 {
         let variables = x.iter().zip(&self.x_lower).zip(&self.x_upper);
         let constraints = g.iter().zip(&self.g_lower).zip(&self.g_upper);
         variables.chain(constraints).fold(0.0, |worst: f64, ((value, lower), upper)| {

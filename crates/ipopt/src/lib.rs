@@ -111,6 +111,7 @@ mod status;
 mod timing;
 mod trap;
 
+pub use check::Declarations;
 pub use error::{Matrix, SolveError, VectorName};
 pub use iteration::{Control, Iteration};
 pub use libraries::{Library, LinearSolvers, Versions, versions};

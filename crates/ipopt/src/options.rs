@@ -23,8 +23,18 @@ const RESERVED: [(&str, &str); 9] = [
     ("skip_finalize_solution_call", "the solution would be lost"),
 ];
 
-/// Options that are passed on even at their default, because Ipopt 3.14 has another one.
-const CHANGED_LATER: [&str; 2] = ["max_cpu_time", "honor_original_bounds"];
+/// Options that are passed on even at their default: Ipopt 3.14 has another one, or Ipopt takes the
+/// value of `bound_push` or `bound_frac` unless this one is set.
+const ALWAYS_PASSED: [&str; 8] = [
+    "max_cpu_time",
+    "honor_original_bounds",
+    "slack_bound_push",
+    "slack_bound_frac",
+    "warm_start_bound_push",
+    "warm_start_bound_frac",
+    "warm_start_slack_bound_push",
+    "warm_start_slack_bound_frac",
+];
 
 macro_rules! options {
     ($($(#[doc = $doc:literal])+
@@ -69,7 +79,7 @@ macro_rules! options {
             pub(crate) fn to_pass(&self) -> Vec<(&str, OptionValue)> {
                 let default = Self::default();
                 let mut to_pass = Vec::new();
-                $(if self.$field != default.$field || CHANGED_LATER.contains(&$name) {
+                $(if self.$field != default.$field || ALWAYS_PASSED.contains(&$name) {
                     to_pass.push(($name, self.$field.value()));
                 })*
                 to_pass.extend(self.extra.iter().map(|(name, v)| (name.as_str(), v.clone())));

@@ -77,7 +77,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub(crate) fn add_since(&mut self, start: Instant) {
+    /// Counts a call that began at `start` and ends now.
+    pub fn add_since(&mut self, start: Instant) {
         self.calls += 1;
         self.time += start.elapsed();
     }
