@@ -11,7 +11,7 @@ use righting_maneuver::{
     IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
-use righting_ocp::{Control, UsedLinearSolver};
+use righting_ocp::{Control, UsedLinearSolver, UsedOptimizer};
 use righting_report::{FigureWriter, report_html, summary};
 use serde::Serialize;
 
@@ -227,7 +227,7 @@ pub fn assemble(
         schema: SCHEMA.to_owned(),
         scenario: scenario.resolved().clone(),
         scenario_sha256: scenario.resolved().sha256(),
-        versions: versions(plan.linear_solver),
+        versions: versions(plan),
         status: plan.status,
         objective: plan.objective,
         iterations: plan.iterations,
@@ -251,14 +251,18 @@ pub fn assemble(
     }
 }
 
-fn versions(used: UsedLinearSolver) -> Versions {
+fn versions(plan: &Plan) -> Versions {
     let found = righting_ipopt::versions();
     let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
     let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
     Versions {
         righting: build::VERSION.to_owned(),
         ipopt: found.ipopt.to_owned(),
-        linear_solver: match used {
+        optimizer: match plan.optimizer {
+            UsedOptimizer::Interior => "interior".to_owned(),
+            UsedOptimizer::Ipopt => "ipopt".to_owned(),
+        },
+        linear_solver: match plan.linear_solver {
             UsedLinearSolver::Stage => "stage".to_owned(),
             UsedLinearSolver::Mumps => format!("mumps {mumps}"),
             UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),

@@ -163,7 +163,10 @@ pub struct Solver {
     /// Initial guess; `auto` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guess: Option<Guess>,
-    /// Linear solver inside Ipopt; `auto` by default.
+    /// Who makes the iterations; `auto` by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimizer: Option<Optimizer>,
+    /// Linear solver inside the optimizer; `auto` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linear_solver: Option<LinearSolver>,
     /// Largest number of iterations; 3000 by default.
@@ -221,6 +224,18 @@ pub struct RandomStarts {
     /// Seed of the random numbers; 0 by default.
     #[serde(default)]
     pub seed: u64,
+}
+
+/// Who makes the iterations of the interior-point method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Optimizer {
+    /// Righting's own loop, iterate by iterate as Ipopt's and faster, and Ipopt where that gives up;
+    /// with MUMPS Ipopt alone.
+    #[default]
+    Auto,
+    /// Ipopt alone.
+    Ipopt,
 }
 
 /// Linear solver inside the optimizer.

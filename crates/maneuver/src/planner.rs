@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver};
+use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver, UsedOptimizer};
 
 use crate::error::ShapeError;
 use crate::formulation::Coordinates;
@@ -31,7 +31,9 @@ pub struct Plan {
     pub history: Vec<IterationRecord>,
     /// Every solve on the way, in order: the coarse starts, then the grids up to the asked one.
     pub rungs: Vec<Rung>,
-    /// What factorised the linear systems of the last solve.
+    /// Who made the iterations of the last solve.
+    pub optimizer: UsedOptimizer,
+    /// What factorised its linear systems.
     pub linear_solver: UsedLinearSolver,
     /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
     pub notes: Vec<String>,
@@ -147,6 +149,7 @@ fn search(mut search: Search<'_>, scenario: &Scenario) -> Result<Plan, PlanError
         iterations: solution.iterations(),
         constraint_violation: solution.constraint_violation,
         history: solution.history.iter().map(record).collect(),
+        optimizer: solution.optimizer,
         linear_solver: solution.linear_solver,
         timing: PlanTiming { trace: search.trace, guess, evaluate, linear_algebra, solve },
         rungs: search.rungs,

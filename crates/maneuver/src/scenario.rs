@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
 use crate::error::Error;
-use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, SystemReference};
+use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, Optimizer, SystemReference};
 use crate::initial::Initial;
 use crate::json::{Bounds, Document, Number, Place, shown};
 use crate::system_description::{SystemDescription, read_system};
@@ -100,6 +100,8 @@ pub struct SolverSettings {
     pub formulation: Formulation,
     /// Initial guess.
     pub guess: Guess,
+    /// Who makes the iterations.
+    pub optimizer: Optimizer,
     /// Linear solver inside the optimizer.
     pub linear_solver: LinearSolver,
     /// Largest number of iterations.
@@ -420,6 +422,7 @@ fn solver(solver: &file::Solver, place: &Place) -> Result<SolverSettings, Error>
     Ok(SolverSettings {
         formulation: solver.formulation.unwrap_or_default(),
         guess: solver.guess.unwrap_or(Guess::Named(NamedGuess::Auto)),
+        optimizer: solver.optimizer.unwrap_or_default(),
         linear_solver: solver.linear_solver.unwrap_or_default(),
         max_iterations: place.key("max_iterations").within(max_iterations, ITERATIONS)? as usize,
         tolerance: place.key("tolerance").within(tolerance, TOLERANCE)?,
@@ -431,6 +434,7 @@ impl SolverSettings {
         file::Solver {
             formulation: Some(self.formulation),
             guess: Some(self.guess),
+            optimizer: Some(self.optimizer),
             linear_solver: Some(self.linear_solver),
             max_iterations: Some(self.max_iterations as f64),
             tolerance: Some(self.tolerance),

@@ -65,8 +65,12 @@ pub struct Solution {
 pub struct Versions {
     /// This program.
     pub righting: String,
-    /// The optimizer.
+    /// Ipopt.
     pub ipopt: String,
+    /// Who made the iterations of the last solve: `interior`, this program's own loop, or `ipopt`.
+    /// Empty in files of a program that had Ipopt alone.
+    #[serde(default)]
+    pub optimizer: String,
     /// The linear solver inside it, with its version where it has one.
     pub linear_solver: String,
 }

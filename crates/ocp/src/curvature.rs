@@ -262,6 +262,7 @@ mod tests {
             program.solve(&Start::Guess(guess), &settings, |_| Control::Continue).unwrap();
         assert!(solution.status.is_success(), "{:?}", solution.status);
         let curvature = program.curvature(&solution.point).unwrap();
+        assert_eq!(solution.curves_upwards, curvature == Curvature::Upward);
         (curvature, solution.states.row(STEPS)[0], solution.iterations())
     }
 

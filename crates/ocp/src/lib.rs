@@ -53,6 +53,7 @@ mod stage;
 mod start;
 mod step;
 mod structure;
+mod trajectory;
 mod worker;
 
 pub use curvature::Curvature;
@@ -66,7 +67,7 @@ pub use problem::{ControlProblem, Interval};
 pub use refine::{Rung, close_guess_settings, refine};
 pub use samples::Samples;
 pub use solution::Solution;
-pub use solve::{LinearSolver, Settings, UsedLinearSolver};
+pub use solve::{LinearSolver, Optimizer, Settings, UsedLinearSolver, UsedOptimizer};
 pub use sparsity::KktSparsity;
 pub use stage::StageFunctions;
 pub use start::{Guess, Start};

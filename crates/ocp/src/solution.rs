@@ -2,12 +2,12 @@ use righting_ipopt::{Iteration, Status, Timing};
 
 use crate::point::Point;
 use crate::samples::Samples;
-use crate::solve::UsedLinearSolver;
+use crate::solve::{UsedLinearSolver, UsedOptimizer};
 
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]
 pub struct Solution {
-    /// How Ipopt ended.
+    /// How the optimizer ended.
     pub status: Status,
     /// The objective at the point.
     pub objective: f64,
@@ -15,8 +15,13 @@ pub struct Solution {
     pub constraint_violation: f64,
     /// One entry per iteration, the start included.
     pub history: Vec<Iteration>,
+    /// Who made the iterations.
+    pub optimizer: UsedOptimizer,
     /// What factorised the linear systems.
     pub linear_solver: UsedLinearSolver,
+    /// Whether the solve itself found that the Lagrangian curves upwards here, as
+    /// [`MultipleShooting::curvature`](crate::MultipleShooting::curvature) does for any point.
+    pub curves_upwards: bool,
     /// All states of the problem at the nodes 0…N.
     pub states: Samples,
     /// The controls of the steps 0…N−1.

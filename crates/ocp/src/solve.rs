@@ -1,3 +1,4 @@
+use righting_interior::Solved;
 use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
 
 use crate::error::OcpError;
@@ -5,8 +6,6 @@ use crate::kkt::{NodeDims, StageDims, StageKkt};
 use crate::nlp::MultipleShooting;
 use crate::point::Point;
 use crate::problem::Interval;
-use crate::rk4::{NODE, STAGES, WEIGHT};
-use crate::samples::Samples;
 use crate::solution::Solution;
 use crate::start::Start;
 
@@ -33,13 +32,35 @@ pub enum UsedLinearSolver {
     MumpsAfterStage,
 }
 
+/// Who makes the iterations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Optimizer {
+    /// [`righting_interior`], and Ipopt from the start where that gives up; with
+    /// [`LinearSolver::Mumps`] Ipopt alone.
+    #[default]
+    Auto,
+    /// Ipopt alone.
+    Ipopt,
+}
+
+/// Who made the iterations of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UsedOptimizer {
+    /// [`righting_interior`].
+    Interior,
+    /// Ipopt.
+    Ipopt,
+}
+
 /// How to solve.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Ipopt's options. Steps of the stage solver are taken as they are
+    /// Ipopt's options, of either optimizer. Steps of the stage solver are taken as they are
     /// ([`Options::fast_step_computation`]), whatever stands there.
     pub ipopt: Options,
-    /// What factorises its linear systems.
+    /// Who makes the iterations.
+    pub optimizer: Optimizer,
+    /// What factorises the linear systems.
     pub linear_solver: LinearSolver,
     /// Whether [`LinearSolver::Auto`] tries MUMPS too when the stage solver has used up its
     /// iterations. Default true; false for one start of many.
@@ -50,6 +71,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             ipopt: Options::default(),
+            optimizer: Optimizer::Auto,
             linear_solver: LinearSolver::Auto,
             retry_at_iteration_limit: true,
         }
@@ -87,22 +109,23 @@ impl MultipleShooting<'_> {
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
-        let mut history = Vec::new();
         // Blocks of dense factors leave residuals near rounding: over the shipped maneuvers Ipopt's
         // check of every step changes no iteration and takes a quarter of the time. Where it would
         // have mattered, MUMPS solves again with it.
         let options = Options { fast_step_computation: true, ..settings.ipopt.clone() };
-        let outcome = righting_ipopt::solve_with(self, &options, start, stage, |iteration| {
-            history.push(*iteration);
-            on_iteration(iteration)
-        });
         let retry = settings.linear_solver == LinearSolver::Auto;
-        let stage_solution = match outcome {
-            Ok(solution) => self.solution(solution, history, UsedLinearSolver::Stage),
-            Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
-                return self.solve_with_mumps(start, &settings.ipopt, on_iteration);
-            }
-            Err(error) => return Err(error.into()),
+        let own = match settings.optimizer {
+            Optimizer::Auto => self.solve_by_own(start, &options, stage, on_iteration),
+            Optimizer::Ipopt => None,
+        };
+        let stage_solution = match own {
+            Some(solution) => solution,
+            None => match self.solve_by_ipopt(start, &options, Some(stage), on_iteration) {
+                Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
+                    return self.solve_with_mumps(start, &settings.ipopt, on_iteration);
+                }
+                outcome => outcome?,
+            },
         };
         let may_help = match stage_solution.status {
             Status::IterationLimit => settings.retry_at_iteration_limit,
@@ -115,25 +138,62 @@ impl MultipleShooting<'_> {
         Ok(Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again })
     }
 
+    /// The solution of [`righting_interior`]; none where it gives up.
+    fn solve_by_own(
+        &mut self,
+        start: &righting_ipopt::Start,
+        options: &Options,
+        stage: &mut impl righting_ipopt::LinearSolver,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Option<Solution> {
+        let mut history = Vec::new();
+        let outcome = righting_interior::solve(self, options, start, stage, |iteration| {
+            history.push(*iteration);
+            on_iteration(iteration)
+        });
+        // Whatever the reason, Ipopt finds out whether it is the problem's.
+        let Solved { solution, curves_upwards } = outcome.ok()?;
+        let used = (UsedOptimizer::Interior, UsedLinearSolver::Stage);
+        Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
+    }
+
     fn solve_with_mumps(
         &mut self,
         start: &righting_ipopt::Start,
         options: &Options,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
+        Ok(self.solve_by_ipopt(start, options, None::<&mut StageKkt>, on_iteration)?)
+    }
+
+    /// Without a solver of the stages, with MUMPS.
+    fn solve_by_ipopt(
+        &mut self,
+        start: &righting_ipopt::Start,
+        options: &Options,
+        stage: Option<&mut impl righting_ipopt::LinearSolver>,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Result<Solution, SolveError> {
         let mut history = Vec::new();
-        let solution = righting_ipopt::solve(self, options, start, |iteration| {
+        let record = |iteration: &Iteration| {
             history.push(*iteration);
             on_iteration(iteration)
-        })?;
-        Ok(self.solution(solution, history, UsedLinearSolver::Mumps))
+        };
+        let (outcome, used) = match stage {
+            Some(stage) => {
+                let outcome = righting_ipopt::solve_with(self, options, start, stage, record);
+                (outcome, UsedLinearSolver::Stage)
+            }
+            None => (righting_ipopt::solve(self, options, start, record), UsedLinearSolver::Mumps),
+        };
+        Ok(self.solution(outcome?, history, (UsedOptimizer::Ipopt, used)))
     }
 
     fn solution(
         &self,
         solution: righting_ipopt::Solution,
         history: Vec<Iteration>,
-        linear_solver: UsedLinearSolver,
+        (optimizer, linear_solver): (UsedOptimizer, UsedLinearSolver),
     ) -> Solution {
         let point = Point {
             layout: self.layout(),
@@ -148,7 +208,9 @@ impl MultipleShooting<'_> {
             objective: solution.objective,
             constraint_violation: solution.constraint_violation,
             history,
+            optimizer,
             linear_solver,
+            curves_upwards: false,
             states,
             controls,
             point,
@@ -200,30 +262,6 @@ impl MultipleShooting<'_> {
             }),
         }
     }
-
-    /// All states at the nodes 0…N and the controls of the steps 0…N−1 of a point on this grid. The
-    /// passive states are integrated along the trajectory with the same steps.
-    pub fn trajectory(&self, point: &Point) -> (Samples, Samples) {
-        let z = &point.z;
-        let (functions, layout, steps) = (self.functions(), self.layout(), self.grid().steps());
-        let mut states = Samples::new(functions.all_states);
-        let mut controls = Samples::new(functions.controls);
-        let mut state = self.full_initial_state().to_vec();
-        states.push(&state);
-        let mut integrator = functions.full_ode.as_ref().map(FullStep::new);
-        for step in 0..steps {
-            let control = &z[layout.control(step)];
-            if let Some(integrator) = &mut integrator {
-                integrator.advance(&mut state, control, self.grid().step_s());
-            }
-            for (&target, &value) in functions.active.iter().zip(&z[layout.state(step + 1)]) {
-                state[target] = value;
-            }
-            states.push(&state);
-            controls.push(control);
-        }
-        (states, controls)
-    }
 }
 
 /// Whether a solve that ended so might succeed with another factorisation.
@@ -237,44 +275,6 @@ fn may_be_the_linear_solver(status: Status) -> bool {
                 | Status::WallTimeLimit
                 | Status::TooFewDegreesOfFreedom
         )
-}
-
-/// One integration step of all states.
-struct FullStep<'f> {
-    ode: &'f righting_symbolic::Function,
-    workspace: righting_symbolic::Workspace,
-    point: Vec<f64>,
-    rates: Vec<f64>,
-    next: Vec<f64>,
-}
-
-impl<'f> FullStep<'f> {
-    fn new(ode: &'f righting_symbolic::Function) -> Self {
-        let states = ode.input_ports()[0].len();
-        let zeros = vec![0.0; states];
-        Self {
-            ode,
-            workspace: ode.workspace(),
-            point: zeros.clone(),
-            rates: zeros.clone(),
-            next: zeros,
-        }
-    }
-
-    fn advance(&mut self, state: &mut [f64], control: &[f64], h: f64) {
-        self.next.copy_from_slice(state);
-        for stage in 0..STAGES {
-            for ((point, &start), &rate) in self.point.iter_mut().zip(&*state).zip(&self.rates) {
-                *point = if stage == 0 { start } else { start + NODE[stage] * h * rate };
-            }
-            let inputs = [self.point.as_slice(), control];
-            self.ode.evaluate(&mut self.workspace, &inputs, &mut [&mut self.rates]);
-            for (next, &rate) in self.next.iter_mut().zip(&self.rates) {
-                *next += WEIGHT[stage] * h * rate;
-            }
-        }
-        state.copy_from_slice(&self.next);
-    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, Guess, LinearSolver, OcpError, Options, Rung, Settings, Solution,
+    Control, Grid, Guess, LinearSolver, OcpError, Optimizer, Options, Rung, Settings, Solution,
     close_guess_settings,
 };
 
@@ -299,6 +299,10 @@ fn settings(scenario: &Scenario) -> Settings {
             watchdog_shortened_iter_trigger: WATCHDOG_TRIGGER,
             watchdog_trial_iter_max: WATCHDOG_TRIALS,
             ..Options::default()
+        },
+        optimizer: match solver.optimizer {
+            file::Optimizer::Auto => Optimizer::Auto,
+            file::Optimizer::Ipopt => Optimizer::Ipopt,
         },
         linear_solver: match solver.linear_solver {
             file::LinearSolver::Auto => LinearSolver::Auto,

@@ -140,7 +140,31 @@ fn mumps_takes_over_whatever_goes_wrong_and_whenever() {
             assert_eq!(solution.linear_solver, UsedLinearSolver::MumpsAfterStage);
             assert_eq!(solution.point.z, expected.point.z, "{trouble:?} after {sound}");
             assert_eq!(solution.history.len(), expected.history.len());
-            assert!(begun <= 2);
+            assert!(begun <= 3);
         }
     }
+}
+
+#[test]
+fn both_optimizers_go_the_same_way() {
+    let functions = StageFunctions::compile(&pendulum()).unwrap();
+    let grid = Grid::new(10.0, STEPS).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
+    let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let mut solved = |optimizer| {
+        let settings = Settings { optimizer, ..Settings::default() };
+        program.solve(&start, &settings, |_| Control::Continue).unwrap()
+    };
+    let (own, ipopt) = (solved(Optimizer::Auto), solved(Optimizer::Ipopt));
+    assert_eq!(own.optimizer, UsedOptimizer::Interior);
+    assert_eq!(ipopt.optimizer, UsedOptimizer::Ipopt);
+    assert_eq!((own.status, own.iterations()), (ipopt.status, ipopt.iterations()));
+    assert!(own.iterations() > 10);
+    for (own, ipopt) in own.history.iter().zip(&ipopt.history) {
+        let difference = (own.objective - ipopt.objective).abs();
+        assert!(difference <= 1e-7 * ipopt.objective.abs().max(1e-2), "{own:?} is not {ipopt:?}");
+        assert_eq!(own.line_search_trials, ipopt.line_search_trials, "{own:?} is not {ipopt:?}");
+    }
+    let differences = own.point.z.iter().zip(&ipopt.point.z).map(|(a, b)| (a - b).abs());
+    assert!(differences.fold(0.0, f64::max) < 1e-6);
 }
