@@ -7,7 +7,7 @@ use crate::point::Point;
 use crate::solution::Solution;
 use crate::solve::Settings;
 use crate::stage::StageFunctions;
-use crate::start::Start;
+use crate::start::{Guess, Start};
 
 /// How close to their bounds the variables and multipliers of a warm start may stay: it is nearly
 /// optimal, and pushing it back inside would undo that.
@@ -21,6 +21,9 @@ const GUESS_BARRIER: f64 = 1e-6;
 const BETWEEN_BARRIER: f64 = 5e-7;
 /// Tolerance there: what is solved more tightly, the next grid changes again.
 const BETWEEN_TOLERANCE: f64 = 1e-6;
+/// Iterations after which a warm start is given up. Most need a tenth of them; where the optimum is
+/// nearly flat in some direction, so small a barrier parameter lets none converge.
+const WARM_ITERATIONS: u32 = 200;
 
 /// Settings for a grid on the way, whose solution is only a start.
 fn between_settings(settings: &Settings) -> Settings {
@@ -46,9 +49,10 @@ fn warm_start_settings(settings: &Settings, barrier_parameter: f64) -> Settings 
         warm_start_slack_bound_push: WARM_PUSH,
         warm_start_slack_bound_frac: WARM_PUSH,
         warm_start_mult_bound_push: WARM_PUSH,
+        max_iterations: settings.ipopt.max_iterations.min(WARM_ITERATIONS),
         ..settings.ipopt.clone()
     };
-    Settings { ipopt, ..*settings }
+    Settings { ipopt, retry_at_iteration_limit: false, ..*settings }
 }
 
 /// Settings for a guess that is nearly optimal but comes without multipliers: they are estimated
@@ -78,8 +82,8 @@ pub struct Rung {
 }
 
 /// Carries `point`, solved on a coarse grid over the same horizon, to `grid` by way of grids of
-/// `between` steps. Stops at the first rung that fails: its solution is then the one returned, on
-/// its grid.
+/// `between` steps. Where a warm start does not converge, the motion alone is a start, as cold as any.
+/// Stops at the first grid on which that fails too: its solution is then the one returned.
 ///
 /// # Errors
 /// Those of [`MultipleShooting::new`] and [`MultipleShooting::solve`].
@@ -93,12 +97,22 @@ pub fn refine(
     mut on_iteration: impl FnMut(&Iteration) -> Control,
 ) -> Result<(Solution, Vec<Rung>), OcpError> {
     let mut rungs = Vec::with_capacity(between.len() + 1);
-    let mut climb = |steps: usize, point: Point, settings: &Settings| -> Result<_, OcpError> {
+    let mut climb = |steps: usize, point: Point, warm: &Settings| -> Result<_, OcpError> {
         let mut program = MultipleShooting::new(functions, grid.with_steps(steps)?, initial)?;
-        let start = Start::Warm(point.resampled(program.initial_state(), steps));
-        let solution = program.solve(&start, settings, &mut on_iteration)?;
-        rungs.push(Rung { steps, status: solution.status, iterations: solution.iterations() });
-        Ok(solution)
+        let point = point.resampled(program.initial_state(), steps);
+        let mut solve = |program: &mut MultipleShooting<'_>, start: Start, settings: &Settings| {
+            let solution = program.solve(&start, settings, &mut on_iteration)?;
+            rungs.push(Rung { steps, status: solution.status, iterations: solution.iterations() });
+            Ok(solution)
+        };
+        let solution = solve(&mut program, Start::Warm(point.clone()), warm)?;
+        if solution.status.is_success() || solution.status == Status::UserStop {
+            return Ok(solution);
+        }
+        let (states, controls) = program.trajectory(&point);
+        let ipopt = Options { tolerance: warm.ipopt.tolerance, ..settings.ipopt.clone() };
+        let cold = Settings { ipopt, ..*settings };
+        solve(&mut program, Start::Guess(Guess { states, controls }), &cold)
     };
     let on_the_way = between_settings(settings);
     for &steps in between {
