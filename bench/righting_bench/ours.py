@@ -20,6 +20,12 @@ VARIANTS: dict[str, dict[str, str]] = {
     "reduced, MUMPS, cold": {"formulation": "reduced", "linear_solver": "mumps", "guess": "constant"},
     "reduced, stage, cold": {"formulation": "reduced", "linear_solver": "stage", "guess": "constant"},
     "reduced, stage, continuation": {"formulation": "reduced", "linear_solver": "stage", "guess": "auto"},
+    "reduced, stage, continuation, all in Ipopt": {
+        "formulation": "reduced",
+        "linear_solver": "stage",
+        "guess": "auto",
+        "optimizer": "ipopt",
+    },
 }
 
 

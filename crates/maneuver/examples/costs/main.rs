@@ -57,9 +57,10 @@ fn run(words: &[&str]) -> Outcome<()> {
 fn measured(scenario: &Scenario, how: &str) -> Outcome<Value> {
     match how {
         "plan" => planned::measured(scenario),
-        "stage" => cold::measured(scenario, LinearSolver::Stage),
-        "mumps" => cold::measured(scenario, LinearSolver::Mumps),
-        _ => Err(format!("{how}: neither plan, stage nor mumps").into()),
+        "cold" => cold::by_iteration(scenario),
+        "stage" => cold::in_ipopt(scenario, LinearSolver::Stage),
+        "mumps" => cold::in_ipopt(scenario, LinearSolver::Mumps),
+        _ => Err(format!("{how}: neither plan, cold, stage nor mumps").into()),
     }
 }
 
@@ -67,7 +68,7 @@ fn measured(scenario: &Scenario, how: &str) -> Outcome<Value> {
 fn grown(joints: usize, steps: usize) -> Outcome<()> {
     let (joints_word, steps_word) = (joints.to_string(), steps.to_string());
     let [plan, cold] =
-        ["plan", "stage"].map(|how| in_own_process(&["chain", &joints_word, &steps_word, how]));
+        ["plan", "cold"].map(|how| in_own_process(&["chain", &joints_word, &steps_word, how]));
     print(json!({ "joints": joints, "steps": steps, "plan": plan?, "cold": cold? }))
 }
 
