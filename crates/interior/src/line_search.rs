@@ -4,7 +4,8 @@ use righting_ipopt::{LinearSolver, Problem};
 
 use crate::barrier::{dual_step, primal_step};
 use crate::filter::Reference;
-use crate::method::{Method, Point, Step};
+use crate::method::Method;
+use crate::point::{Point, Step};
 use crate::{GivesUp, largest};
 
 /// What a step is shortened by.

@@ -5,18 +5,17 @@ use righting_ipopt::{
     Status, Timing,
 };
 
-use crate::barrier::{barrier, distances, keep_near_path, slope};
-use crate::filter::{Filter, Merit};
+use crate::barrier::{keep_near_path, slope};
+use crate::filter::Filter;
 use crate::line_search::{Taken, Watchdog};
+use crate::point::{Point, Step};
 use crate::program::{Program, Row};
 use crate::start::{Iterate, first};
 use crate::system::System;
-use crate::{GivesUp, larger, largest};
+use crate::{GivesUp, largest};
 
-/// Multipliers larger than this on average are divided out of the errors.
-const S_MAX: f64 = 100.0;
 /// The least fraction to the boundary.
-const TAU_MIN: f64 = 0.99;
+pub(crate) const TAU_MIN: f64 = 0.99;
 
 /// A solution, and what Ipopt does not tell.
 #[derive(Debug)]
@@ -89,68 +88,6 @@ fn check<P: Problem + ?Sized>(problem: &P, options: &Options) -> Result<(), Give
     Ok(())
 }
 
-/// A point w with what is evaluated there.
-#[derive(Debug, Clone)]
-pub(crate) struct Point {
-    pub(crate) w: Vec<f64>,
-    objective: f64,
-    /// The barrier term, to be multiplied by μ.
-    barrier: f64,
-    pub(crate) residuals: Vec<f64>,
-    pub(crate) distances: Vec<f64>,
-    /// 1-norm of the residuals.
-    pub(crate) violation: f64,
-    /// Whether a bound has to move for the distances to be so large.
-    moves_bounds: bool,
-}
-
-impl Point {
-    fn at(w: Vec<f64>, constraints: usize, bounds: usize) -> Self {
-        Self {
-            w,
-            objective: f64::NAN,
-            barrier: f64::NAN,
-            residuals: vec![0.0; constraints],
-            distances: vec![0.0; bounds],
-            violation: f64::NAN,
-            moves_bounds: false,
-        }
-    }
-
-    pub(crate) fn evaluate<P: Problem + ?Sized>(
-        &mut self,
-        program: &mut Program<'_, P>,
-        z: &[f64],
-        mu: f64,
-    ) -> Result<(), GivesUp> {
-        self.objective = program.objective(&self.w[..program.variables()])?;
-        program.residuals(&self.w, &mut self.residuals)?;
-        self.violation = self.residuals.iter().map(|c| c.abs()).sum();
-        self.moves_bounds = distances(&program.bounds, &self.w, z, mu, &mut self.distances);
-        self.barrier = barrier(&program.bounds, &self.distances);
-        if self.barrier.is_finite() { Ok(()) } else { Err(GivesUp::Undefined) }
-    }
-
-    pub(crate) fn merit(&self, mu: f64) -> Merit {
-        Merit { violation: self.violation, barrier: self.objective + mu * self.barrier }
-    }
-}
-
-/// A step of all unknowns.
-#[derive(Debug, Clone)]
-pub(crate) struct Step {
-    pub(crate) w: Vec<f64>,
-    pub(crate) y: Vec<f64>,
-    pub(crate) z: Vec<f64>,
-}
-
-impl Step {
-    pub(crate) fn is_finite(&self) -> bool {
-        let Self { w, y, z } = self;
-        w.iter().chain(y).chain(z).fold(true, |finite, value| finite & value.is_finite())
-    }
-}
-
 /// A solve on its way.
 pub(crate) struct Method<'a, P: ?Sized, L: ?Sized> {
     pub(crate) program: Program<'a, P>,
@@ -164,7 +101,7 @@ pub(crate) struct Method<'a, P: ?Sized, L: ?Sized> {
     /// ∇f, zero for the slacks.
     gradient: Vec<f64>,
     /// ∇f + Jᵀ y − z of the bounds.
-    lagrangian: Vec<f64>,
+    pub(crate) lagrangian: Vec<f64>,
     /// Right-hand sides of the step in w.
     pub(crate) dual_residuals: Vec<f64>,
     sigma: Vec<f64>,
@@ -174,20 +111,7 @@ pub(crate) struct Method<'a, P: ?Sized, L: ?Sized> {
     pub(crate) watchdog: Watchdog,
     /// Whether the last step was as small as rounding errors.
     pub(crate) was_tiny: bool,
-    acceptable: u32,
-}
-
-/// How far the current iterate is from a solution of the scaled problem; maximum norms.
-struct Errors {
-    dual: f64,
-    /// Of the residuals.
-    primal: f64,
-    /// Of the constraints: how far g is from where it should be.
-    violation: f64,
-    unscaled_violation: f64,
-    /// What dual errors and complementarity are divided by.
-    dual_scale: f64,
-    complementarity_scale: f64,
+    pub(crate) acceptable: u32,
 }
 
 impl<'a, P, L> Method<'a, P, L>
@@ -285,71 +209,6 @@ where
         }
     }
 
-    /// Whether to stop here.
-    fn ends(&mut self, errors: &Errors, count: usize) -> Option<Status> {
-        let options = self.options;
-        let complementarity = self.complementarity(0.0);
-        let error = (errors.dual / errors.dual_scale)
-            .max(errors.violation)
-            .max(complementarity / errors.complementarity_scale);
-        let scale = self.program.objective_scale;
-        let within = |tolerance, dual, violation, unscaled_complementarity| {
-            error <= tolerance
-                && errors.dual / scale <= dual
-                && errors.unscaled_violation <= violation
-                && complementarity / scale <= unscaled_complementarity
-        };
-        if within(
-            options.tolerance,
-            options.dual_inf_tol,
-            options.constr_viol_tol,
-            options.compl_inf_tol,
-        ) {
-            return Some(Status::Solved);
-        }
-        let is_acceptable = within(
-            options.acceptable_tol,
-            options.acceptable_dual_inf_tol,
-            options.acceptable_constr_viol_tol,
-            options.acceptable_compl_inf_tol,
-        );
-        // The start does not count: from it the objective has not changed yet.
-        self.acceptable = if is_acceptable && count > 0 { self.acceptable + 1 } else { 0 };
-        if options.acceptable_iter > 0 && self.acceptable >= options.acceptable_iter {
-            return Some(Status::Acceptable);
-        }
-        if largest(&self.point.w[..self.program.variables()]) > options.diverging_iterates_tol {
-            return Some(Status::Diverging);
-        }
-        (count >= options.max_iterations as usize).then_some(Status::IterationLimit)
-    }
-
-    /// Goes on to the next barrier problem, or several, if this one is solved.
-    fn lower_barrier(&mut self, errors: &Errors) {
-        let options = self.options;
-        let factor = options.barrier_tol_factor;
-        let tolerance = options.tolerance.min(self.program.objective_scale * options.compl_inf_tol);
-        let before = self.mu;
-        while (errors.dual / errors.dual_scale)
-            .max(errors.primal)
-            .max(self.complementarity(self.mu) / errors.complementarity_scale)
-            <= factor * self.mu
-        {
-            let linear = options.mu_linear_decrease_factor * self.mu;
-            let superlinear = self.mu.powf(options.mu_superlinear_decrease_power);
-            let next = linear.min(superlinear).max(tolerance / (factor + 1.0));
-            if next == self.mu {
-                break;
-            }
-            self.mu = next;
-            self.tau = TAU_MIN.max(1.0 - next);
-        }
-        if self.mu != before {
-            self.filter.reset();
-            self.watchdog = Watchdog::default();
-        }
-    }
-
     fn curves_upwards(&mut self) -> Result<bool, GivesUp> {
         let x = &self.point.w[..self.program.variables()];
         self.program.hessian(x, &self.y, self.system.hessian_mut())?;
@@ -444,47 +303,6 @@ where
         for (bound, z) in program.bounds.iter().zip(&self.z) {
             lagrangian[bound.index()] -= bound.sign() * z;
         }
-    }
-
-    fn errors(&self) -> Errors {
-        let Point { residuals, distances, .. } = &self.point;
-        let program = &self.program;
-        let (mut violation, mut unscaled_violation) = (0.0_f64, 0.0_f64);
-        let mut outside = |row: usize, by: f64| {
-            violation = violation.max(by);
-            unscaled_violation = unscaled_violation.max(by / program.row_scale(row));
-        };
-        for (row, (kind, c)) in program.rows.iter().zip(residuals).enumerate() {
-            if let Row::Equality(_) = kind {
-                outside(row, c.abs());
-            }
-        }
-        for (bound, distance) in program.bounds.iter().zip(distances) {
-            if let Some(slack) = bound.index().checked_sub(program.variables()) {
-                let row = program.slack_rows[slack];
-                outside(row, -(distance + bound.sign() * residuals[row]));
-            }
-        }
-        let sum_z: f64 = self.z.iter().sum();
-        let sum_y: f64 = self.y.iter().map(|y| y.abs()).sum();
-        let scale = |sum: f64, count: usize| match count {
-            0 => 1.0,
-            _ => (sum / count as f64).max(S_MAX) / S_MAX,
-        };
-        Errors {
-            dual: largest(&self.lagrangian),
-            primal: largest(residuals),
-            violation,
-            unscaled_violation,
-            dual_scale: scale(sum_y + sum_z, self.y.len() + self.z.len()),
-            complementarity_scale: scale(sum_z, self.z.len()),
-        }
-    }
-
-    /// max |d z − μ|.
-    fn complementarity(&self, mu: f64) -> f64 {
-        let products = self.point.distances.iter().zip(&self.z);
-        products.map(|(distance, z)| (distance * z - mu).abs()).fold(0.0, larger)
     }
 
     fn into_solution(mut self, status: Status, last: Iteration, clock: Instant) -> Solution {
