@@ -32,7 +32,7 @@ bench-all:
 page:
 	cd crates/report/page && npm ci --silent && npm run --silent check && npm run --silent build
 
-# Half an hour on two cores: what the automatic guess is worth, as docs/starts.md.
+# Five minutes on two cores: what the automatic guess is worth, as docs/starts.md.
 starts: setup
 	cargo build --release --locked
 	scripts/starts.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
