@@ -82,8 +82,13 @@ impl<'a> PageData<'a> {
             notes: &solution.notes,
             checks: check_rows(&solution.verification.checks),
             made_by: format!(
-                "Righting {}, Ipopt {}, linear solver {}.",
-                versions.righting, versions.ipopt, versions.linear_solver
+                "Righting {}, iterations by {}, linear solver {}.",
+                versions.righting,
+                match versions.optimizer.as_str() {
+                    "interior" => "its own loop".to_owned(),
+                    _ => format!("Ipopt {}", versions.ipopt),
+                },
+                versions.linear_solver
             ),
             spacecraft: Spacecraft::new(scenario, trajectory),
             target_attitude,
