@@ -144,12 +144,16 @@ def _growth(root: Path, program: Path, kept: Measurements, run: str) -> None:
     if not costs.exists():
         _announce(f"no program at {costs}: no growth")
         return
-    for kind, key in (("joints", "joints"), ("steps", "steps"), ("linear-solvers", "scenario")):
+    for kind, keys in (
+        ("joints", ("joints",)),
+        ("steps", ("joints", "steps")),
+        ("linear-solvers", ("scenario",)),
+    ):
         _announce(f"ours, {kind}")
         done = subprocess.run([costs, kind], cwd=root, stdout=subprocess.PIPE, text=True, check=False)
         for line in done.stdout.splitlines():
             record = json.loads(line)
-            kept.keep(run, f"{kind}/{record[key]}", record)
+            kept.keep(run, "/".join((kind, *(str(record[key]) for key in keys))), record)
 
 
 def _median_solve(root: Path, arguments: list[str]) -> dict | None:

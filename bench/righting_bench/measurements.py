@@ -14,7 +14,7 @@ class Measurements:
     """Everything measured so far, newest by key.
 
     A key is "casadi/SCENARIO/FORM/SOLVER/DERIVATIVES[/compiled]", "derivatives/SCENARIO/FORM/VARIANT",
-    "ours/SCENARIO/VARIANT", "joints/J", "steps/N" or "linear-solvers/SCENARIO". Each value carries `run`,
+    "ours/SCENARIO/VARIANT", "joints/J", "steps/J/N" or "linear-solvers/SCENARIO". Each value carries `run`,
     the start of the run that measured it.
     """
 

@@ -250,7 +250,7 @@ def _growth_tables(kept: Measurements) -> str:
     parts = []
     for kind, what in (
         ("joints", "joints: a 20° slew at N = 600, arms of one mass and reach"),
-        ("steps", "the grid: the same slew, 4 joints"),
+        ("steps", "the grid: the same slew"),
     ):
         rows = []
         for record in _numbered(kept, kind):
@@ -258,7 +258,7 @@ def _growth_tables(kept: Measurements) -> str:
             each = cold["iteration_ms"]
             rows.append(
                 [
-                    str(record[kind]),
+                    *(str(record[number]) for number in ("joints", "steps")),
                     _seconds(plan, "plan_s"),
                     f"{plan['trace_s']:.3f}",
                     f"{plan['peak_mib']:.0f}",
@@ -271,7 +271,7 @@ def _growth_tables(kept: Measurements) -> str:
             )
         if rows:
             header = [
-                *(kind, "plan, s", "of it tracing, s", "peak MiB"),
+                *("joints", "steps", "plan, s", "of it tracing, s", "peak MiB"),
                 *("cold: iterations", "evaluate, ms/it.", "linear algebra, ms/it.", "vectors, ms/it."),
                 *("total, ms/it.", "total, µs/it. and step", "peak MiB, cold", "status"),
             ]
@@ -280,9 +280,9 @@ def _growth_tables(kept: Measurements) -> str:
 
 
 def _numbered(kept: Measurements, kind: str) -> list[dict]:
-    """The records of one kind in the order of their number."""
+    """The records of one kind in the order of joints and steps."""
     found = [value for key, value in kept.values.items() if key.startswith(f"{kind}/")]
-    return sorted(found, key=lambda record: record[kind])
+    return sorted(found, key=lambda record: (record["joints"], record["steps"]))
 
 
 def _linear_solver_table(kept: Measurements) -> str:
