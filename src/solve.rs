@@ -11,7 +11,7 @@ use righting_maneuver::{
     IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
     Trajectory, Verification, Versions, plan, plan_from, verify,
 };
-use righting_ocp::{Control, UsedLinearSolver, UsedOptimizer};
+use righting_ocp::{Control, UsedLinearSolver};
 use righting_report::{FigureWriter, report_html, summary};
 use serde::Serialize;
 
@@ -258,10 +258,7 @@ fn versions(plan: &Plan) -> Versions {
     Versions {
         righting: build::VERSION.to_owned(),
         ipopt: found.ipopt.to_owned(),
-        optimizer: match plan.optimizer {
-            UsedOptimizer::Interior => "interior".to_owned(),
-            UsedOptimizer::Ipopt => "ipopt".to_owned(),
-        },
+        optimizer: plan.optimizer,
         linear_solver: match plan.linear_solver {
             UsedLinearSolver::Stage => "stage".to_owned(),
             UsedLinearSolver::Mumps => format!("mumps {mumps}"),

@@ -155,6 +155,12 @@ pub enum GivesUp {
     TinySteps,
 }
 
+/// Whether every entry is a number, and finite.
+pub(crate) fn are_finite(values: &[f64]) -> bool {
+    // Without an early exit, so that it compiles to vector code.
+    values.iter().fold(true, |finite, value| finite & value.is_finite())
+}
+
 /// Numbers compared at a time: a chain of single comparisons would wait for each.
 const LANES: usize = 8;
 

@@ -47,6 +47,17 @@ struct Origin {
     steps: u32,
 }
 
+impl Watchdog {
+    /// Whether it is at work and takes this step whatever it does; at most so many.
+    fn goes_on(&mut self, most: u32) -> bool {
+        let Some(origin) = self.origin.as_mut().filter(|origin| origin.steps < most) else {
+            return false;
+        };
+        origin.steps += 1;
+        true
+    }
+}
+
 /// How to backtrack.
 struct Backtracking {
     reference: Reference,
@@ -72,19 +83,40 @@ where
 {
     /// Leaves the point to go on from as the trial point, with its multipliers in place.
     pub(crate) fn line_search(&mut self) -> Result<Taken, GivesUp> {
-        let mut returned = None;
-        if self.is_tiny() {
-            returned = self.return_to_origin();
-            if returned.is_none() {
-                return self.take_tiny_step();
-            }
-        }
-        self.was_tiny = false;
-        let mut reference = match (returned, &self.watchdog.origin) {
-            (Some(reference), _) => reference,
-            (None, Some(origin)) => origin.reference,
-            (None, None) => self.reference(),
+        let mut search = if self.is_tiny() {
+            let Some(reference) = self.return_to_origin() else { return self.take_tiny_step() };
+            Backtracking { reference, skips_first: false, may_correct: false }
+        } else {
+            let origin = self.watchdog.origin.as_ref();
+            let reference = origin.map_or_else(|| self.reference(), |origin| origin.reference);
+            Backtracking { reference, skips_first: false, may_correct: true }
         };
+        self.was_tiny = false;
+        self.start_watchdog(search.reference);
+        let mut shortened = 0;
+        let primal = loop {
+            match self.backtrack(&search, &mut shortened)? {
+                Backtracked::Accepted(length) => {
+                    self.watchdog.origin = None;
+                    break length;
+                }
+                Backtracked::Rejected(length)
+                    if self.watchdog.goes_on(self.options.watchdog_trial_iter_max) =>
+                {
+                    break length;
+                }
+                Backtracked::Rejected(_) | Backtracked::Undefined => {
+                    let reference = self.return_to_origin().ok_or(GivesUp::NeedsRestoration)?;
+                    search = Backtracking { reference, skips_first: true, may_correct: false };
+                }
+            }
+        };
+        self.watchdog.shortened = if shortened == 0 { 0 } else { self.watchdog.shortened + 1 };
+        Ok(self.step_multipliers(primal, shortened + 1))
+    }
+
+    /// Starts the watchdog here if enough steps were shortened and it is not at work.
+    fn start_watchdog(&mut self, reference: Reference) {
         let trigger = self.options.watchdog_shortened_iter_trigger;
         if trigger > 0 && self.watchdog.origin.is_none() && self.watchdog.shortened >= trigger {
             self.watchdog.origin = Some(Box::new(Origin {
@@ -96,32 +128,6 @@ where
                 steps: 0,
             }));
         }
-        let mut shortened = 0;
-        let mut skips_first = false;
-        let primal = loop {
-            let search = Backtracking { reference, skips_first, may_correct: returned.is_none() };
-            let outcome = self.backtrack(&search, &mut shortened)?;
-            match (outcome, &mut self.watchdog.origin) {
-                (Backtracked::Accepted(length), origin) => {
-                    *origin = None;
-                    break length;
-                }
-                (Backtracked::Rejected(length), Some(origin))
-                    if origin.steps < self.options.watchdog_trial_iter_max =>
-                {
-                    origin.steps += 1;
-                    break length;
-                }
-                (_, Some(_)) => {
-                    returned = self.return_to_origin();
-                    reference = returned.unwrap_or(reference);
-                    skips_first = true;
-                }
-                (_, None) => return Err(GivesUp::NeedsRestoration),
-            }
-        };
-        self.watchdog.shortened = if shortened == 0 { 0 } else { self.watchdog.shortened + 1 };
-        Ok(self.step_multipliers(primal, shortened + 1))
     }
 
     /// Goes along the step without looking at what that does to the functions.

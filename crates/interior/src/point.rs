@@ -1,9 +1,9 @@
 use righting_ipopt::Problem;
 
-use crate::GivesUp;
 use crate::barrier::{barrier, distances};
 use crate::filter::Merit;
 use crate::program::Program;
+use crate::{GivesUp, are_finite};
 
 /// A point w with what is evaluated there.
 #[derive(Debug, Clone)]
@@ -63,6 +63,6 @@ pub(crate) struct Step {
 impl Step {
     pub(crate) fn is_finite(&self) -> bool {
         let Self { w, y, z } = self;
-        w.iter().chain(y).chain(z).fold(true, |finite, value| finite & value.is_finite())
+        are_finite(w) && are_finite(y) && are_finite(z)
     }
 }

@@ -4,7 +4,7 @@ use righting_ipopt::{
     Declarations, EvaluationTiming, Multipliers, NlpScaling, Options, Problem, Start,
 };
 
-use crate::{GivesUp, largest};
+use crate::{GivesUp, are_finite, largest};
 
 /// Beyond this a bound is none, as in Ipopt.
 const NO_BOUND: f64 = 1e19;
@@ -85,7 +85,8 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         if options.nlp_scaling == NlpScaling::GradientBased {
             program.scale_by_gradients(options, &start.x)?;
         }
-        program.relax_bounds(options)?;
+        program.classify_rows();
+        program.bounds = program.relaxed_bounds(options)?;
         if program.rows.len() - program.slack_rows.len() >= program.variables() {
             return Err(GivesUp::Unsupported("as many equations as variables"));
         }
@@ -119,8 +120,9 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         // Ipopt scales equalities and inequalities apart.
         let mut is_scaled = false;
         for equalities in [true, false] {
-            let in_kind: Vec<usize> =
-                (0..rows.len()).filter(|&row| self.is_equality(row) == equalities).collect();
+            let in_kind: Vec<usize> = (0..rows.len())
+                .filter(|&row| self.declared.is_equality(row) == equalities)
+                .collect();
             let scales = in_kind.iter().any(|&row| rows[row] > most);
             is_scaled |= scales;
             for row in in_kind {
@@ -131,25 +133,31 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         Ok(())
     }
 
-    fn is_equality(&self, row: usize) -> bool {
-        self.declared.g_lower[row] == self.declared.g_upper[row]
+    fn classify_rows(&mut self) {
+        for row in 0..self.declared.constraints {
+            self.rows.push(if self.declared.is_equality(row) {
+                Row::Equality(self.row_scale(row) * self.declared.g_lower[row])
+            } else {
+                self.slack_rows.push(row);
+                Row::Slack(self.primals() - 1)
+            });
+        }
     }
 
-    fn relax_bounds(&mut self, options: &Options) -> Result<(), GivesUp> {
-        let relaxed = |bound: f64, sign: f64| {
-            bound - sign * options.bound_relax_factor * bound.abs().max(1.0)
-        };
+    /// The bounds of variables and slacks, in their order, the lower one of each first.
+    fn relaxed_bounds(&self, options: &Options) -> Result<Vec<Bound>, GivesUp> {
+        let outwards = |bound: f64| options.bound_relax_factor * bound.abs().max(1.0);
         let mut bounds = Vec::new();
         let mut add = |index: usize, lower: f64, upper: f64, scale: f64| {
             let (has_lower, has_upper) = (lower > -NO_BOUND, upper < NO_BOUND);
             let is_only = has_lower != has_upper;
             let index = index as u32;
             if has_lower {
-                let value = scale * relaxed(lower, 1.0);
+                let value = scale * (lower - outwards(lower));
                 bounds.push(Bound { value, index, is_upper: false, is_only });
             }
             if has_upper {
-                let value = scale * relaxed(upper, -1.0);
+                let value = scale * (upper + outwards(upper));
                 bounds.push(Bound { value, index, is_upper: true, is_only });
             }
         };
@@ -160,19 +168,10 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
             }
             add(index, lower, upper, 1.0);
         }
-        for (row, (&lower, &upper)) in g_lower.iter().zip(g_upper).enumerate() {
-            let scale = self.row_scales.as_ref().map_or(1.0, |scales| scales[row]);
-            if lower == upper {
-                self.rows.push(Row::Equality(scale * lower));
-            } else {
-                let index = variables + self.slack_rows.len();
-                add(index, lower, upper, scale);
-                self.rows.push(Row::Slack(index));
-                self.slack_rows.push(row);
-            }
+        for (slack, &row) in self.slack_rows.iter().enumerate() {
+            add(variables + slack, g_lower[row], g_upper[row], self.row_scale(row));
         }
-        self.bounds = bounds;
-        Ok(())
+        Ok(bounds)
     }
 
     /// f at these variables.
@@ -313,7 +312,5 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
 }
 
 fn finite(defined: bool, values: &[f64]) -> Result<(), GivesUp> {
-    // Without an early exit, so that it compiles to vector code.
-    let finite = values.iter().fold(true, |finite, value| finite & value.is_finite());
-    if defined && finite { Ok(()) } else { Err(GivesUp::Undefined) }
+    if defined && are_finite(values) { Ok(()) } else { Err(GivesUp::Undefined) }
 }

@@ -7,18 +7,10 @@ use crate::barrier::distances;
 use crate::program::{Bound, Program, Row};
 
 /// Primal and dual variables: w, the constraints' y and the bounds' z.
-#[derive(Debug, Clone)]
 pub(crate) struct Iterate {
     pub(crate) w: Vec<f64>,
     pub(crate) y: Vec<f64>,
     pub(crate) z: Vec<f64>,
-}
-
-/// How far inside of their bounds variables and slacks start.
-struct Margins {
-    /// Of variables: absolutely, and as a fraction of the bounds' distance.
-    variables: (f64, f64),
-    slacks: (f64, f64),
 }
 
 /// The first iterate of a warm start, or of a cold one but for y, which is zero.
@@ -28,20 +20,22 @@ pub(crate) fn first<P: Problem + ?Sized>(
     start: &Start,
 ) -> Result<Iterate, GivesUp> {
     let warm = program.scaled_multipliers(start);
-    let margins = match warm {
-        None => Margins {
-            variables: (options.bound_push, options.bound_frac),
-            slacks: (options.slack_bound_push, options.slack_bound_frac),
-        },
-        Some(_) => Margins {
-            variables: (options.warm_start_bound_push, options.warm_start_bound_frac),
-            slacks: (options.warm_start_slack_bound_push, options.warm_start_slack_bound_frac),
-        },
+    // How far inside of their bounds they start: absolutely, and as a fraction of the bounds' distance.
+    let (of_variables, of_slacks) = match warm {
+        None => (
+            (options.bound_push, options.bound_frac),
+            (options.slack_bound_push, options.slack_bound_frac),
+        ),
+        Some(_) => (
+            (options.warm_start_bound_push, options.warm_start_bound_frac),
+            (options.warm_start_slack_bound_push, options.warm_start_slack_bound_frac),
+        ),
     };
     let mut w = start.x.clone();
     w.resize(program.primals(), 0.0);
+    // The slacks of a warm start are those of the variables before they are moved, as in Ipopt.
     if warm.is_none() {
-        push_inside(&program.bounds, 0..program.variables(), margins.variables, &mut w);
+        push_inside(&program.bounds, 0..program.variables(), of_variables, &mut w);
     }
     let mut values = vec![0.0; program.rows.len()];
     program.residuals(&w, &mut values)?;
@@ -51,9 +45,9 @@ pub(crate) fn first<P: Problem + ?Sized>(
         }
     }
     if warm.is_some() {
-        push_inside(&program.bounds, 0..program.variables(), margins.variables, &mut w);
+        push_inside(&program.bounds, 0..program.variables(), of_variables, &mut w);
     }
-    push_inside(&program.bounds, program.variables()..w.len(), margins.slacks, &mut w);
+    push_inside(&program.bounds, program.variables()..w.len(), of_slacks, &mut w);
 
     if let Some((mut y, mut z)) = warm {
         let most = options.warm_start_mult_init_max;

@@ -5,8 +5,8 @@ use righting_ipopt::{
     Declarations, Factorization, LinearSolver, LinearSolverTiming, Options, Problem,
 };
 
-use crate::GivesUp;
 use crate::program::{Program, Row};
+use crate::{GivesUp, are_finite};
 
 /// What the pivot tolerance is raised to, of itself.
 const TOLERANCE_POWER: f64 = 0.75;
@@ -65,17 +65,7 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
     ) -> Result<Self, GivesUp> {
         let (primals, constraints) = (program.primals(), program.rows.len());
         let Declarations { jacobian, hessian, .. } = &program.declared;
-        let is_slack = |row: &Row| matches!(row, Row::Slack(_));
-        let mut next = [primals, primals + constraints - program.slack_rows.len()];
-        let unknown: Vec<usize> = program
-            .rows
-            .iter()
-            .map(|row| {
-                let next = &mut next[usize::from(is_slack(row))];
-                *next += 1;
-                *next - 1
-            })
-            .collect();
+        let unknown = program.declared.multiplier_unknowns();
         let (mut rows, mut columns) = (hessian.rows.clone(), hessian.columns.clone());
         let of_hessian = 0..rows.len();
         rows.extend((0..primals).map(|i| i as i32));
@@ -185,7 +175,7 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
         }
         let zeros = vec![0.0; self.constraint_diagonal.len()];
         self.solve(rhs, &zeros, &mut vec![0.0; self.primals], y);
-        y.iter().all(|y| y.is_finite())
+        are_finite(y)
     }
 
     /// Factorises without regularisation: whether there is one negative eigenvalue a constraint.

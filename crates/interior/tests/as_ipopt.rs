@@ -1,41 +1,12 @@
 //! The same iterates as Ipopt, on problems of which the solution is published.
 
-#[path = "../../ipopt/tests/support/mod.rs"]
-mod support;
+mod common;
 
-use righting_interior::GivesUp;
+use common::support::assert_close;
+use common::support::bunch_kaufman::BunchKaufman;
+use common::support::hock_schittkowski::*;
+use common::{fast, ipopt, own};
 use righting_ipopt::*;
-use support::assert_close;
-use support::bunch_kaufman::BunchKaufman;
-use support::hock_schittkowski::*;
-
-/// How a solve went: every iteration, and the end.
-type Solved<E> = (Vec<Iteration>, Result<Solution, E>);
-
-fn ipopt<P: Problem>(mut problem: P, options: &Options, start: &Start) -> Solved<SolveError> {
-    let mut iterations = Vec::new();
-    let mut solver = BunchKaufman::default();
-    let outcome = solve_with(&mut problem, options, start, &mut solver, |iteration| {
-        iterations.push(*iteration);
-        Control::Continue
-    });
-    (iterations, outcome)
-}
-
-fn own<P: Problem>(mut problem: P, options: &Options, start: &Start) -> Solved<GivesUp> {
-    let mut iterations = Vec::new();
-    let mut solver = BunchKaufman::default();
-    let outcome =
-        righting_interior::solve(&mut problem, options, start, &mut solver, |iteration| {
-            iterations.push(*iteration);
-            Control::Continue
-        });
-    (iterations, outcome.map(|solved| solved.solution))
-}
-
-fn fast() -> Options {
-    Options { fast_step_computation: true, ..Options::default() }
-}
 
 /// What an iteration reports, by name.
 fn numbers(iteration: &Iteration) -> [(&'static str, f64); 8] {
@@ -62,7 +33,7 @@ fn agree<F: Functions>(
     let name = F::NAME;
     let (theirs, expected) = ipopt(problem(), options, start);
     let (ours, found) = own(problem(), options, start);
-    let (expected, found) = (expected.unwrap(), found.unwrap());
+    let (expected, found) = (expected.unwrap(), found.unwrap().solution);
     assert_eq!(ours.len(), theirs.len(), "{name}");
     for (a, b) in ours.iter().zip(&theirs) {
         assert_eq!(a.line_search_trials, b.line_search_trials, "{name}, iteration {}", b.iteration);

@@ -1,23 +1,15 @@
 //! What the method leaves to Ipopt.
 
-#[path = "../../ipopt/tests/support/mod.rs"]
-mod support;
+mod common;
 
+use common::support::bunch_kaufman::BunchKaufman;
+use common::support::hock_schittkowski::*;
+use common::{fast, own};
 use righting_interior::GivesUp;
 use righting_ipopt::*;
-use support::bunch_kaufman::BunchKaufman;
-use support::hock_schittkowski::*;
 
-fn fast() -> Options {
-    Options { fast_step_computation: true, ..Options::default() }
-}
-
-fn outcome(problem: &mut impl Problem, options: &Options, x: &[f64]) -> Result<Solution, GivesUp> {
-    let mut solver = BunchKaufman::default();
-    let start = Start::at(x.to_vec());
-    let solved =
-        righting_interior::solve(problem, options, &start, &mut solver, |_| Control::Continue)?;
-    Ok(solved.solution)
+fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<Solution, GivesUp> {
+    own(problem, options, &Start::at(x.to_vec())).1.map(|solved| solved.solution)
 }
 
 /// min x₀² + x₁²  with  x₀ + x₁² = level, −1 ≤ x₀ ≤ 1 and x₁ within these bounds.
@@ -80,27 +72,26 @@ impl Problem for Parabola {
 
 #[test]
 fn infeasible_problems_are_left_to_the_restoration_phase() {
-    let mut problem = Parabola::new(3.0, (-1.0, 1.0));
-    let found = outcome(&mut problem, &fast(), &[0.5, 0.5]);
+    let problem = Parabola::new(3.0, (-1.0, 1.0));
+    let found = outcome(problem, &fast(), &[0.5, 0.5]);
     assert!(matches!(found, Err(GivesUp::NeedsRestoration | GivesUp::NoStep)), "{found:?}");
     // With a feasible level the same problem is solved.
-    let solution = outcome(&mut Parabola::new(1.5, (-1.0, 1.0)), &fast(), &[0.5, 0.5]).unwrap();
+    let solution = outcome(Parabola::new(1.5, (-1.0, 1.0)), &fast(), &[0.5, 0.5]).unwrap();
     assert_eq!(solution.status, Status::Solved);
     assert!((solution.g[0] - 1.5).abs() < 1e-7);
 }
 
 #[test]
 fn so_are_fixed_variables_and_time_limits() {
-    let found = outcome(&mut Parabola::new(0.5, (0.5, 0.5)), &fast(), &[0.5, 0.5]);
+    let found = outcome(Parabola::new(0.5, (0.5, 0.5)), &fast(), &[0.5, 0.5]);
     assert!(matches!(found, Err(GivesUp::FixedVariable { index: 1 })), "{found:?}");
-    let found = outcome(&mut Dense(Hs006), &Options { max_cpu_time: 1.0, ..fast() }, Hs006::START);
+    let found = outcome(Dense(Hs006), &Options { max_cpu_time: 1.0, ..fast() }, Hs006::START);
     assert!(matches!(found, Err(GivesUp::Unsupported("a time limit"))), "{found:?}");
 }
 
 #[test]
 fn every_option_is_followed_or_refused() {
-    let refused =
-        |options: Options| outcome(&mut Dense(Hs071), &options, Hs071::START).unwrap_err();
+    let refused = |options: Options| outcome(Dense(Hs071), &options, Hs071::START).unwrap_err();
     for options in [
         Options { fast_step_computation: false, ..fast() },
         Options { mu_strategy: MuStrategy::Adaptive, ..fast() },
@@ -124,23 +115,20 @@ fn every_option_is_followed_or_refused() {
 #[test]
 fn a_start_that_does_not_fit_or_is_no_number_is_refused() {
     for x in [&[1.0][..], &[1.0, f64::NAN, 1.0, 1.0], &[1.0; 5]] {
-        let found = outcome(&mut Dense(Hs071), &fast(), x);
+        let found = outcome(Dense(Hs071), &fast(), x);
         assert!(matches!(found, Err(GivesUp::Invalid(_))), "{found:?}");
     }
     let nan =
         Multipliers { constraints: vec![0.0, f64::NAN], lower: vec![0.0; 4], upper: vec![0.0; 4] };
     let start = Start { x: Hs071::START.to_vec(), multipliers: Some(nan) };
-    let mut solver = BunchKaufman::default();
-    let found = righting_interior::solve(&mut Dense(Hs071), &fast(), &start, &mut solver, |_| {
-        Control::Continue
-    });
+    let (_, found) = own(Dense(Hs071), &fast(), &start);
     assert!(matches!(found, Err(GivesUp::Invalid(_))), "{found:?}");
 }
 
 #[test]
 fn derivatives_and_steps_that_are_no_numbers_end_it() {
-    let mut problem = Parabola { is_nan: true, ..Parabola::new(0.5, (-1.0, 1.0)) };
-    let found = outcome(&mut problem, &fast(), &[0.5, 0.5]);
+    let problem = Parabola { is_nan: true, ..Parabola::new(0.5, (-1.0, 1.0)) };
+    let found = outcome(problem, &fast(), &[0.5, 0.5]);
     assert!(matches!(found, Err(GivesUp::Undefined)), "{found:?}");
 
     /// Right about everything but the last unknown of a solution.

@@ -1,6 +1,6 @@
 //! What Ipopt calls, and the way from there to the user's [`Problem`].
 
-use crate::check::Declarations;
+use crate::declarations::Declarations;
 use crate::trap::Trap;
 use crate::{Control, EvaluationTiming, Iteration, Problem, Tally, TripletStructure};
 use righting_ipopt_sys as sys;

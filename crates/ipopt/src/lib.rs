@@ -95,7 +95,7 @@
 //! is started from within a solve on the same thread is refused.
 
 mod callbacks;
-mod check;
+mod declarations;
 mod error;
 mod handle;
 mod iteration;
@@ -111,7 +111,7 @@ mod status;
 mod timing;
 mod trap;
 
-pub use check::Declarations;
+pub use declarations::Declarations;
 pub use error::{Matrix, SolveError, VectorName};
 pub use iteration::{Control, Iteration};
 pub use libraries::{Library, LinearSolvers, Versions, versions};

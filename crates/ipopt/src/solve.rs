@@ -1,5 +1,5 @@
 use crate::callbacks::{self, Session};
-use crate::check::Declarations;
+use crate::declarations::Declarations;
 use crate::handle::{Arrays, Handle};
 use crate::slot::{self, Report};
 use crate::trap::Trap;

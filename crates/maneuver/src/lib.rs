@@ -84,7 +84,7 @@ pub use planner::{Plan, PlanError, PlanTiming, plan, plan_from, plan_with_thread
 pub use power::PowerProfile;
 pub use reach::{Reach, ReachError, ReachSettings, reach};
 pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
-pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, Versions};
+pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, UsedOptimizer, Versions};
 pub use system_description::{JointLimits, SystemDescription};
 pub use trajectory::{Interval, Node, Trajectory};
 pub use verification::{Check, Sense, Verification};

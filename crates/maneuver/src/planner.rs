@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver, UsedOptimizer};
+use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver};
 
 use crate::error::ShapeError;
 use crate::formulation::Coordinates;
 use crate::open_ways::open_ways;
 use crate::scenario::Scenario;
 use crate::search::Search;
-use crate::solution::{IterationRecord, Status};
+use crate::solution::{IterationRecord, Status, UsedOptimizer};
 use crate::trajectory::{Interval, Node, Trajectory};
 
 /// A plan that was computed, converged or not.
@@ -149,7 +149,10 @@ fn search(mut search: Search<'_>, scenario: &Scenario) -> Result<Plan, PlanError
         iterations: solution.iterations(),
         constraint_violation: solution.constraint_violation,
         history: solution.history.iter().map(record).collect(),
-        optimizer: solution.optimizer,
+        optimizer: match solution.optimizer {
+            righting_ocp::UsedOptimizer::Interior => UsedOptimizer::Interior,
+            righting_ocp::UsedOptimizer::Ipopt => UsedOptimizer::Ipopt,
+        },
         linear_solver: solution.linear_solver,
         timing: PlanTiming { trace: search.trace, guess, evaluate, linear_algebra, solve },
         rungs: search.rungs,

@@ -67,12 +67,22 @@ pub struct Versions {
     pub righting: String,
     /// Ipopt.
     pub ipopt: String,
-    /// Who made the iterations of the last solve: `interior`, this program's own loop, or `ipopt`.
-    /// Empty in files of a program that had Ipopt alone.
+    /// Who made the iterations of the last solve.
     #[serde(default)]
-    pub optimizer: String,
+    pub optimizer: UsedOptimizer,
     /// The linear solver inside it, with its version where it has one.
     pub linear_solver: String,
+}
+
+/// Who made the iterations of a solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum UsedOptimizer {
+    /// This program's own loop.
+    Interior,
+    /// Ipopt, as in every file that does not say.
+    #[default]
+    Ipopt,
 }
 
 /// How the optimizer ended.

@@ -3,8 +3,8 @@
 mod support;
 
 use righting_maneuver::file::{Guess, NamedGuess, Optimizer};
-use righting_maneuver::{Plan, plan};
-use righting_ocp::{Control, UsedOptimizer};
+use righting_maneuver::{Plan, UsedOptimizer, plan};
+use righting_ocp::Control;
 use support::{shipped, varied};
 
 fn planned(name: &str, optimizer: Optimizer, guess: NamedGuess) -> Plan {

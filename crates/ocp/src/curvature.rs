@@ -1,6 +1,6 @@
 //! The second-order conditions at the end of a solve.
 
-use righting_ipopt::{Bounds, Factorization, LinearSolver, Problem, SolveError};
+use righting_ipopt::{Declarations, Factorization, LinearSolver, Problem, SolveError};
 
 use crate::error::OcpError;
 use crate::kkt::StageKkt;
@@ -62,7 +62,7 @@ impl MultipleShooting<'_> {
                 found: point.z.len(),
             });
         }
-        let system = BarrierSystem::at(self, point);
+        let system = BarrierSystem::at(self, point)?;
         let constraints = self.layout().constraints();
         let upward = Factorization::Regular { negative_eigenvalues: constraints };
         let mut stages = StageKkt::new(&self.stage_dims()).stop_at_excess();
@@ -130,65 +130,55 @@ struct BarrierSystem {
 }
 
 impl BarrierSystem {
-    fn at(program: &mut MultipleShooting<'_>, point: &Point) -> Self {
-        let (variables, constraints) =
-            (program.layout().variables(), program.layout().constraints());
-        let (mut x_lower, mut x_upper) =
-            (vec![f64::NEG_INFINITY; variables], vec![f64::INFINITY; variables]);
-        let (mut g_lower, mut g_upper) =
-            (vec![f64::NEG_INFINITY; constraints], vec![f64::INFINITY; constraints]);
-        program.bounds(&mut Bounds {
-            x_lower: &mut x_lower,
-            x_upper: &mut x_upper,
-            g_lower: &mut g_lower,
-            g_upper: &mut g_upper,
-        });
-        let is_equality = |row: usize| g_lower[row] == g_upper[row];
-        let slacks = (0..constraints).filter(|&row| !is_equality(row)).count();
-        // Unknown of each constraint's multiplier: the equalities come first.
-        let mut next = [variables + slacks, variables + constraints];
-        let multiplier: Vec<i32> = (0..constraints)
-            .map(|row| {
-                let next = &mut next[usize::from(!is_equality(row))];
-                *next += 1;
-                *next as i32 - 1
-            })
-            .collect();
+    fn at(program: &mut MultipleShooting<'_>, point: &Point) -> Result<Self, SolveError> {
+        let declared = Declarations::of(program)?;
+        let multiplier = declared.multiplier_unknowns();
+        let Declarations {
+            variables,
+            constraints,
+            x_lower,
+            x_upper,
+            g_lower,
+            g_upper,
+            jacobian,
+            hessian,
+            ..
+        } = &declared;
 
         // The shooting problem can be evaluated anywhere: its functions have no domain to leave.
-        let mut constraint_values = vec![0.0; constraints];
+        let mut constraint_values = vec![0.0; *constraints];
         let z = &point.z;
         let _ = program.constraints(z, true, &mut constraint_values);
-        let jacobian = program.jacobian_structure();
         let mut jacobian_values = vec![0.0; jacobian.len()];
         let _ = program.jacobian(z, false, &mut jacobian_values);
-        let hessian = program.hessian_structure();
         let mut values = vec![0.0; hessian.len()];
         let _ = program.hessian(z, false, 1.0, &point.constraints, true, &mut values);
 
-        let (mut rows, mut columns) = (hessian.rows, hessian.columns);
+        let (mut rows, mut columns) = (hessian.rows.clone(), hessian.columns.clone());
         let diagonal = values.len();
-        for i in 0..variables {
+        for i in 0..*variables {
             rows.push(i as i32);
             columns.push(i as i32);
             let barrier = curvature_of_barrier(point.lower[i], z[i] - x_lower[i], x_lower[i])
                 + curvature_of_barrier(point.upper[i], x_upper[i] - z[i], x_upper[i]);
             values.push(barrier);
         }
-        rows.extend(jacobian.rows.iter().map(|&row| multiplier[row as usize]));
+        rows.extend(jacobian.rows.iter().map(|&row| multiplier[row as usize] as i32));
         columns.extend(&jacobian.columns);
         values.extend(jacobian_values);
-        let inequalities = (0..constraints).filter(|&row| !is_equality(row));
-        for (slack, row) in (variables as i32..).zip(inequalities) {
+        let mut slacks = 0;
+        for row in declared.inequalities() {
+            let slack = (variables + slacks) as i32;
+            slacks += 1;
             let (force, value) = (point.constraints[row], constraint_values[row]);
             let barrier = curvature_of_barrier(-force, value - g_lower[row], g_lower[row])
                 + curvature_of_barrier(force, g_upper[row] - value, g_upper[row]);
-            rows.extend([slack, multiplier[row]]);
+            rows.extend([slack, multiplier[row] as i32]);
             columns.extend([slack, slack]);
             values.extend([barrier, -1.0]);
         }
         let order = variables + slacks + constraints;
-        Self { order, variables, slacks, rows, columns, values, diagonal }
+        Ok(Self { order, variables: *variables, slacks, rows, columns, values, diagonal })
     }
 
     /// The values with `shift` added to the diagonal of the variables.

@@ -8,7 +8,7 @@
 //! with F one classical Runge–Kutta step (Bock & Plitt, *IFAC World Congress* 1984; Betts,
 //! *Practical Methods for Optimal Control*, ch. 4). The problem is stated with symbolic states and
 //! controls; [`StageFunctions`] traces, differentiates and compiles it once for all grids, and
-//! [`MultipleShooting`] evaluates all stages in batches and hands Ipopt exact sparse derivatives.
+//! [`MultipleShooting`] evaluates all stages in batches and hands the optimizer exact sparse derivatives.
 //!
 //! ```
 //! use num_dual::DualNum;

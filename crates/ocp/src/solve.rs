@@ -120,7 +120,7 @@ impl MultipleShooting<'_> {
         };
         let stage_solution = match own {
             Some(solution) => solution,
-            None => match self.solve_by_ipopt(start, &options, Some(stage), on_iteration) {
+            None => match self.solve_by_ipopt(start, &options, stage, on_iteration) {
                 Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
                     return self.solve_with_mumps(start, &settings.ipopt, on_iteration);
                 }
@@ -147,14 +147,26 @@ impl MultipleShooting<'_> {
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Option<Solution> {
         let mut history = Vec::new();
-        let outcome = righting_interior::solve(self, options, start, stage, |iteration| {
-            history.push(*iteration);
-            on_iteration(iteration)
-        });
-        // Whatever the reason, Ipopt finds out whether it is the problem's.
-        let Solved { solution, curves_upwards } = outcome.ok()?;
+        let record = recording(&mut history, on_iteration);
+        // Whatever the reason for giving up, Ipopt finds out whether it is the problem's.
+        let Solved { solution, curves_upwards } =
+            righting_interior::solve(self, options, start, stage, record).ok()?;
         let used = (UsedOptimizer::Interior, UsedLinearSolver::Stage);
         Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
+    }
+
+    fn solve_by_ipopt(
+        &mut self,
+        start: &righting_ipopt::Start,
+        options: &Options,
+        stage: &mut impl righting_ipopt::LinearSolver,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Result<Solution, SolveError> {
+        let mut history = Vec::new();
+        let record = recording(&mut history, on_iteration);
+        let solution = righting_ipopt::solve_with(self, options, start, stage, record)?;
+        let used = (UsedOptimizer::Ipopt, UsedLinearSolver::Stage);
+        Ok(self.solution(solution, history, used))
     }
 
     fn solve_with_mumps(
@@ -163,30 +175,11 @@ impl MultipleShooting<'_> {
         options: &Options,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
-        Ok(self.solve_by_ipopt(start, options, None::<&mut StageKkt>, on_iteration)?)
-    }
-
-    /// Without a solver of the stages, with MUMPS.
-    fn solve_by_ipopt(
-        &mut self,
-        start: &righting_ipopt::Start,
-        options: &Options,
-        stage: Option<&mut impl righting_ipopt::LinearSolver>,
-        on_iteration: &mut impl FnMut(&Iteration) -> Control,
-    ) -> Result<Solution, SolveError> {
         let mut history = Vec::new();
-        let record = |iteration: &Iteration| {
-            history.push(*iteration);
-            on_iteration(iteration)
-        };
-        let (outcome, used) = match stage {
-            Some(stage) => {
-                let outcome = righting_ipopt::solve_with(self, options, start, stage, record);
-                (outcome, UsedLinearSolver::Stage)
-            }
-            None => (righting_ipopt::solve(self, options, start, record), UsedLinearSolver::Mumps),
-        };
-        Ok(self.solution(outcome?, history, (UsedOptimizer::Ipopt, used)))
+        let record = recording(&mut history, on_iteration);
+        let solution = righting_ipopt::solve(self, options, start, record)?;
+        let used = (UsedOptimizer::Ipopt, UsedLinearSolver::Mumps);
+        Ok(self.solution(solution, history, used))
     }
 
     fn solution(
@@ -261,6 +254,17 @@ impl MultipleShooting<'_> {
                 found: point.z.len(),
             }),
         }
+    }
+}
+
+/// Passes iterations on and keeps them.
+fn recording<'a>(
+    history: &'a mut Vec<Iteration>,
+    on_iteration: &'a mut impl FnMut(&Iteration) -> Control,
+) -> impl FnMut(&Iteration) -> Control + 'a {
+    |iteration| {
+        history.push(*iteration);
+        on_iteration(iteration)
     }
 }
 

@@ -55,6 +55,9 @@ impl Model {
 
     /// How the Lagrangian curves at a solution on `grid`.
     pub(super) fn curvature(&self, grid: Grid, solution: &Solution) -> Result<Curvature, OcpError> {
+        if solution.curves_upwards {
+            return Ok(Curvature::Upward);
+        }
         MultipleShooting::new(&self.functions, grid, &self.initial)?.curvature(&solution.point)
     }
 

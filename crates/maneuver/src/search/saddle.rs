@@ -19,7 +19,7 @@ impl Search<'_> {
     /// which the Lagrangian curves downwards, or from swings of the arm that break the symmetry.
     /// False beside it says that there was none.
     pub(crate) fn off_saddles(&mut self, plan: Solution) -> Result<(Solution, bool), OcpError> {
-        if plan.curves_upwards || !plan.status.is_success() {
+        if !plan.status.is_success() {
             return Ok((plan, true));
         }
         let way_down = match self.model.curvature(self.grid, &plan)? {
@@ -37,8 +37,7 @@ impl Search<'_> {
                 }
                 if let Some(found) = self.refined(start)?
                     && found.objective < plan.objective
-                    && (found.curves_upwards
-                        || self.model.curvature(self.grid, &found)? == Curvature::Upward)
+                    && self.model.curvature(self.grid, &found)? == Curvature::Upward
                 {
                     self.notes.push(format!(
                         "left a stationary point that is no minimum (objective {:.6e}) by \

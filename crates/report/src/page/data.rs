@@ -1,7 +1,9 @@
 //! Everything the page says, in the shape that `page/src/data.ts` mirrors.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
-use righting_maneuver::{Maneuver, Scenario, Solution, SystemDescription, Trajectory};
+use righting_maneuver::{
+    Maneuver, Scenario, Solution, SystemDescription, Trajectory, UsedOptimizer,
+};
 use righting_multibody::DhConvention;
 use serde::Serialize;
 
@@ -84,9 +86,9 @@ impl<'a> PageData<'a> {
             made_by: format!(
                 "Righting {}, iterations by {}, linear solver {}.",
                 versions.righting,
-                match versions.optimizer.as_str() {
-                    "interior" => "its own loop".to_owned(),
-                    _ => format!("Ipopt {}", versions.ipopt),
+                match versions.optimizer {
+                    UsedOptimizer::Interior => "its own loop".to_owned(),
+                    UsedOptimizer::Ipopt => format!("Ipopt {}", versions.ipopt),
                 },
                 versions.linear_solver
             ),
