@@ -247,6 +247,7 @@ pub fn assemble(
         bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
         reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
         notes: plan.notes.clone(),
+        attempts: plan.attempts.clone(),
         history: plan.history.clone(),
     }
 }

@@ -163,7 +163,7 @@ pub struct Solver {
     /// Initial guess; `auto` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guess: Option<Guess>,
-    /// Who makes the iterations; `auto` by default.
+    /// Who makes the iterations; `ipopt` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimizer: Option<Optimizer>,
     /// Linear solver inside the optimizer; `auto` by default.
@@ -230,12 +230,15 @@ pub struct RandomStarts {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Optimizer {
-    /// Righting's own loop, iterate by iterate as Ipopt's and faster, and Ipopt where that gives up;
-    /// with MUMPS Ipopt alone.
+    /// Ipopt makes every plan. The starts that are compared before it, and the coarser grids, are solved
+    /// by Righting's own implementation of Ipopt's method, and by Ipopt where that gives up.
     #[default]
-    Auto,
-    /// Ipopt alone.
     Ipopt,
+    /// Righting's own implementation makes the plan too, and Ipopt where that gives up; with MUMPS Ipopt
+    /// alone.
+    Interior,
+    /// The same as `ipopt`.
+    Auto,
 }
 
 /// Linear solver inside the optimizer.

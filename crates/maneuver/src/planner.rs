@@ -4,14 +4,16 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use righting_ocp::{Control, Iteration, OcpError, Rung, Solution, UsedLinearSolver};
+use righting_ocp::{
+    Attempt, AttemptEnd, Control, Iteration, OcpError, Optimizer, Solution, UsedLinearSolver,
+};
 
 use crate::error::ShapeError;
 use crate::formulation::Coordinates;
 use crate::open_ways::open_ways;
 use crate::scenario::Scenario;
 use crate::search::Search;
-use crate::solution::{IterationRecord, Status, UsedOptimizer};
+use crate::solution::{AttemptRecord, IterationRecord, Status, UsedOptimizer};
 use crate::trajectory::{Interval, Node, Trajectory};
 
 /// A plan that was computed, converged or not.
@@ -29,8 +31,8 @@ pub struct Plan {
     pub constraint_violation: f64,
     /// One record an iteration of the last solve, the starting point first.
     pub history: Vec<IterationRecord>,
-    /// Every solve on the way, in order: the coarse starts, then the grids up to the asked one.
-    pub rungs: Vec<Rung>,
+    /// Every attempt to solve, in order: the coarse starts, then the grids up to the asked one.
+    pub attempts: Vec<AttemptRecord>,
     /// Who made the iterations of the last solve.
     pub optimizer: UsedOptimizer,
     /// What factorised its linear systems.
@@ -149,13 +151,10 @@ fn search(mut search: Search<'_>, scenario: &Scenario) -> Result<Plan, PlanError
         iterations: solution.iterations(),
         constraint_violation: solution.constraint_violation,
         history: solution.history.iter().map(record).collect(),
-        optimizer: match solution.optimizer {
-            righting_ocp::UsedOptimizer::Interior => UsedOptimizer::Interior,
-            righting_ocp::UsedOptimizer::Ipopt => UsedOptimizer::Ipopt,
-        },
+        optimizer: used_optimizer(solution.optimizer),
         linear_solver: solution.linear_solver,
         timing: PlanTiming { trace: search.trace, guess, evaluate, linear_algebra, solve },
-        rungs: search.rungs,
+        attempts: search.attempts.iter().map(attempt_record).collect(),
     })
 }
 
@@ -211,6 +210,32 @@ pub(crate) fn record(iteration: &Iteration) -> IterationRecord {
         barrier_parameter: iteration.mu,
         primal_step: iteration.alpha_primal,
         dual_step: iteration.alpha_dual,
+    }
+}
+
+fn attempt_record(attempt: &Attempt) -> AttemptRecord {
+    let (ended, given_up) = match &attempt.end {
+        AttemptEnd::Status(ended) => (Some(status(*ended)), None),
+        AttemptEnd::GivenUp(reason) => (None, Some(reason.clone())),
+    };
+    AttemptRecord {
+        steps: attempt.steps,
+        optimizer: used_optimizer(attempt.optimizer),
+        linear_solver: match attempt.linear_solver {
+            UsedLinearSolver::Stage => "stage".to_owned(),
+            UsedLinearSolver::Mumps | UsedLinearSolver::MumpsAfterStage => "mumps".to_owned(),
+        },
+        status: ended,
+        given_up,
+        iterations: attempt.iterations,
+        seconds: attempt.time.as_secs_f64(),
+    }
+}
+
+fn used_optimizer(optimizer: Optimizer) -> UsedOptimizer {
+    match optimizer {
+        Optimizer::Interior => UsedOptimizer::Interior,
+        Optimizer::Ipopt => UsedOptimizer::Ipopt,
     }
 }
 

@@ -55,6 +55,10 @@ pub struct Solution {
     /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+    /// Every attempt to solve, in order: the starts on a coarse grid, then finer grids up to the asked
+    /// one, with what was given up on the way.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attempts: Vec<AttemptRecord>,
     /// One record an iteration, the starting point first; of the last solve if there were several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<IterationRecord>,
@@ -83,6 +87,27 @@ pub enum UsedOptimizer {
     /// Ipopt, as in every file that does not say.
     #[default]
     Ipopt,
+}
+
+/// One attempt to solve the problem on one grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AttemptRecord {
+    /// Number of steps of the grid.
+    pub steps: usize,
+    /// Who made the iterations.
+    pub optimizer: UsedOptimizer,
+    /// What factorised the linear systems: "stage" or "mumps".
+    pub linear_solver: String,
+    /// How it ended; absent where it was given up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub status: Option<Status>,
+    /// Why it was given up, and another attempt made from the same start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub given_up: Option<String>,
+    /// Number of iterations.
+    pub iterations: usize,
+    /// Wall time, s.
+    pub seconds: f64,
 }
 
 /// How the optimizer ended.

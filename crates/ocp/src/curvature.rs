@@ -220,7 +220,7 @@ mod tests {
     use super::*;
     use crate::grid::Grid;
     use crate::problem::{ControlProblem, Interval};
-    use crate::solve::Settings;
+    use crate::solve::{Optimizer, Settings};
     use crate::stage::StageFunctions;
     use crate::start::{Guess, Start};
 
@@ -248,10 +248,13 @@ mod tests {
             ipopt: Options { tolerance: 1e-9, ..Options::default() },
             ..Settings::default()
         };
-        let solution =
-            program.solve(&Start::Guess(guess), &settings, |_| Control::Continue).unwrap();
+        let start = Start::Guess(guess);
+        let solution = program.solve(&start, &settings, |_| Control::Continue).unwrap();
         assert!(solution.status.is_success(), "{:?}", solution.status);
         let curvature = program.curvature(&solution.point).unwrap();
+        assert!(curvature == Curvature::Upward || !solution.curves_upwards);
+        let by_interior = Settings { optimizer: Optimizer::Interior, ..settings };
+        let solution = program.solve(&start, &by_interior, |_| Control::Continue).unwrap();
         assert_eq!(solution.curves_upwards, curvature == Curvature::Upward);
         (curvature, solution.states.row(STEPS)[0], solution.iterations())
     }

@@ -21,7 +21,7 @@ use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
 use crate::collision::CollisionModel;
-use crate::file::Formulation;
+use crate::file::{Formulation, Guess, NamedGuess};
 use crate::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use coordinates::Coordinates;
 
@@ -71,6 +71,11 @@ impl FormulatedManeuver {
             .path_constraints(clearances.bounds(), move |x| {
                 clearances.squared_distances(path.joint_angles(x))
             });
+        // The paper transcribes all states, and which ones there are decides where its guess leads.
+        let problem = match scenario.solver().guess {
+            Guess::Named(NamedGuess::Constant) => problem.keep_passive_states(),
+            _ => problem,
+        };
         Self { problem, coordinates, initial }
     }
 }

@@ -69,7 +69,8 @@ impl<'a> Trials<'a> {
             if self.is_interrupted {
                 return Ok(None);
             }
-            iterations += found.plan.rungs.iter().map(|rung| rung.iterations).sum::<usize>();
+            iterations +=
+                found.plan.attempts.iter().map(|attempt| attempt.iterations).sum::<usize>();
             let succeeded = self.succeeds(&found);
             if succeeded || best.as_ref().is_none_or(|(_, best)| self.misses_less(&found, best)) {
                 best = Some((start, found));

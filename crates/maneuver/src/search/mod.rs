@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, Guess, LinearSolver, OcpError, Optimizer, Options, Rung, Settings, Solution,
+    Attempt, Control, Grid, Guess, LinearSolver, OcpError, Optimizer, Options, Settings, Solution,
     close_guess_settings,
 };
 
@@ -74,7 +74,7 @@ pub(crate) struct Search<'a> {
     /// What a reader of the plan should know.
     pub(crate) notes: Vec<String>,
     /// Every solve so far.
-    pub(crate) rungs: Vec<Rung>,
+    pub(crate) attempts: Vec<Attempt>,
     /// Time spent tracing and compiling.
     pub(crate) trace: Duration,
     stop: AtomicBool,
@@ -105,7 +105,7 @@ impl<'a> Search<'a> {
             on_iteration,
             neighbor,
             notes: Vec::new(),
-            rungs: Vec::new(),
+            attempts: Vec::new(),
             trace: started.elapsed(),
             stop: AtomicBool::new(false),
         })
@@ -152,9 +152,9 @@ impl<'a> Search<'a> {
         let batch = Batch { model: scout, grid, starts: &starts };
         let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
         let mut best: Option<Solution> = None;
-        for solution in solutions {
+        for mut solution in solutions {
             let status = solution.status;
-            self.rungs.push(rung(grid, &solution));
+            self.attempts.append(&mut solution.attempts);
             let better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
             if status.is_success() && better {
                 best = Some(solution);
@@ -171,14 +171,17 @@ impl<'a> Search<'a> {
             return Ok(solution);
         }
         let guess = self.model.swings(self.scenario, self.grid.steps()).constant();
-        let settings = settings(self.scenario);
-        let solution = self.model.solve(
+        let settings = match self.scenario.solver().guess {
+            file::Guess::Named(NamedGuess::Constant) => paper_settings(self.scenario),
+            _ => settings(self.scenario),
+        };
+        let mut solution = self.model.solve(
             self.grid,
             guess,
             &settings,
             stoppable(self.on_iteration, &self.stop),
         )?;
-        self.rungs.push(rung(self.grid, &solution));
+        self.attempts.append(&mut solution.attempts);
         Ok(solution)
     }
 
@@ -194,38 +197,34 @@ impl<'a> Search<'a> {
                 true => self.grid.steps(),
                 false => between.remove(0),
             })?;
-            let (scouted, rungs) = scout.refine(
+            let mut scouted = scout.refine(
                 grid,
                 &[],
                 start,
-                &settings,
+                &start_settings(self.scenario),
                 stoppable(self.on_iteration, &self.stop),
             )?;
-            self.rungs.extend(rungs);
+            self.attempts.append(&mut scouted.attempts);
             let guess = self.model.guess_from(scout, &scouted);
-            let close = close_guess_settings(&settings);
+            let close = close_guess_settings(&start_settings(self.scenario));
             start =
                 self.model.solve(grid, guess, &close, stoppable(self.on_iteration, &self.stop))?;
-            self.rungs.push(rung(grid, &start));
+            self.attempts.append(&mut start.attempts);
             if !start.status.is_success() {
                 return Ok(None);
             }
         }
-        let (solution, rungs) = self.model.refine(
+        let mut solution = self.model.refine(
             self.grid,
             &between,
             start,
             &settings,
             stoppable(self.on_iteration, &self.stop),
         )?;
-        self.rungs.extend(rungs);
+        self.attempts.append(&mut solution.attempts);
         let on_asked_grid = solution.controls.len() == self.grid.steps();
         Ok((on_asked_grid && solution.status.is_success()).then_some(solution))
     }
-}
-
-fn rung(grid: Grid, solution: &Solution) -> Rung {
-    Rung { steps: grid.steps(), status: solution.status, iterations: solution.iterations() }
 }
 
 /// Passes iterations on until one is answered with a stop.
@@ -269,7 +268,7 @@ fn guesses(scenario: &Scenario, swings: &Swings<'_>) -> Vec<Guess> {
 }
 
 fn coarse_settings(scenario: &Scenario) -> Settings {
-    let mut settings = settings(scenario);
+    let mut settings = start_settings(scenario);
     settings.ipopt.tolerance = settings.ipopt.tolerance.max(coarse_tolerance(scenario));
     settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
     // From so far away corrections of single steps save none.
@@ -290,19 +289,39 @@ fn coarse_tolerance(scenario: &Scenario) -> f64 {
     }
 }
 
+/// Of a solve whose solution is only a start of another one.
+fn start_settings(scenario: &Scenario) -> Settings {
+    Settings { optimizer: Optimizer::Interior, ..settings(scenario) }
+}
+
+/// Of a solve that ends in a plan.
 fn settings(scenario: &Scenario) -> Settings {
+    let paper = paper_settings(scenario);
+    Settings {
+        ipopt: Options {
+            watchdog_shortened_iter_trigger: WATCHDOG_TRIGGER,
+            watchdog_trial_iter_max: WATCHDOG_TRIALS,
+            // Blocks of dense factors leave residuals near rounding: over the shipped maneuvers Ipopt's
+            // check of every step changes no iteration and takes a quarter of the time.
+            fast_step_computation: true,
+            ..paper.ipopt
+        },
+        ..paper
+    }
+}
+
+/// Ipopt as it is by itself, as the paper used it.
+fn paper_settings(scenario: &Scenario) -> Settings {
     let solver = scenario.solver();
     Settings {
         ipopt: Options {
             tolerance: solver.tolerance,
             max_iterations: solver.max_iterations as u32,
-            watchdog_shortened_iter_trigger: WATCHDOG_TRIGGER,
-            watchdog_trial_iter_max: WATCHDOG_TRIALS,
             ..Options::default()
         },
         optimizer: match solver.optimizer {
-            file::Optimizer::Auto => Optimizer::Auto,
-            file::Optimizer::Ipopt => Optimizer::Ipopt,
+            file::Optimizer::Ipopt | file::Optimizer::Auto => Optimizer::Ipopt,
+            file::Optimizer::Interior => Optimizer::Interior,
         },
         linear_solver: match solver.linear_solver {
             file::LinearSolver::Auto => LinearSolver::Auto,

@@ -1,5 +1,5 @@
 use righting_ocp::{
-    Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Rung, Samples, Settings, Solution,
+    Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Samples, Settings, Solution,
     StageFunctions, Start, refine,
 };
 
@@ -47,7 +47,7 @@ impl Model {
         coarse: Solution,
         settings: &Settings,
         mut on_iteration: impl FnMut(IterationRecord) -> Control,
-    ) -> Result<(Solution, Vec<Rung>), OcpError> {
+    ) -> Result<Solution, OcpError> {
         let on_iteration = |iteration: &righting_ocp::Iteration| on_iteration(record(iteration));
         let initial = &self.initial;
         refine(&self.functions, grid, between, initial, coarse.point, settings, on_iteration)

@@ -81,8 +81,10 @@ impl Search<'_> {
             .map(|start| (start, cold.clone()))
             .collect();
         let batch = Batch { model, grid, starts: &starts };
-        let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        self.rungs.extend(solutions.iter().map(|solution| super::rung(grid, solution)));
+        let mut solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
+        for solution in &mut solutions {
+            self.attempts.append(&mut solution.attempts);
+        }
         let is_better = |solution: &Solution| {
             solution.status.is_success() && solution.objective < plan.objective
         };

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use righting_maneuver::solution::SCHEMA;
 use righting_maneuver::{
-    Interval, Node, Scenario, Solution, Status, Terminal, Timing, Trajectory, Versions, file,
+    Interval, Node, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory, Versions, file,
     objective, verify,
 };
 use righting_multibody::{State, System};
@@ -28,6 +28,12 @@ pub fn varied(scenario: &Scenario, change: impl FnOnce(&mut file::Scenario)) -> 
     let mut file = scenario.resolved().clone();
     change(&mut file);
     Scenario::from_file(file, Path::new("varied.json")).unwrap()
+}
+
+/// Grid, outcome and iterations of every attempt, in order.
+pub fn solves(plan: &Plan) -> Vec<(usize, Option<Status>, usize)> {
+    let attempts = plan.attempts.iter();
+    attempts.map(|attempt| (attempt.steps, attempt.status, attempt.iterations)).collect()
 }
 
 /// Joint accelerations of joints that sway out and back, from rest to rest, in one to three whole
@@ -121,6 +127,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         bound_deg_s: None,
         reduction_percent: None,
         notes: Vec::new(),
+        attempts: Vec::new(),
         history: Vec::new(),
     }
 }
