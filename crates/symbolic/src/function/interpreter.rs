@@ -80,7 +80,7 @@ fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
         let result = instruction.result;
         macro_rules! at {
             ($register:expr) => {
-                registers[$register as usize].0
+                registers[$register as usize]
             };
         }
         // Each operation loads and stores by itself: what is shared by branches goes through the stack.
