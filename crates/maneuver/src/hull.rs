@@ -3,10 +3,15 @@
 //! Quickhull (Barber, Dobkin, Huhdanpaa, *ACM TOMS* 22, 1996) on triangles: a point belongs to one
 //! facet that sees it, the farthest point of a facet replaces all facets that see it. Points within
 //! a billionth of the cloud's size of a facet count as on it.
+//!
+//! Which facets a point sees is decided by Shewchuk's exact predicate (*Discrete & Computational
+//! Geometry* 18, 1997): decided by rounded heights, the facets around a nearly flat corner may
+//! contradict each other, and the surface then has holes.
 
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
+use robust::{Coord3D, orient3d};
 
 const FLATNESS: f64 = 1e-9;
 
@@ -46,14 +51,25 @@ struct Facet {
 }
 
 impl Facet {
+    /// How far a point is above the facet's plane, up to rounding.
     fn height(&self, point: &Vector3<f64>) -> f64 {
         self.normal.dot(point) - self.offset
+    }
+
+    /// Whether a point is above the facet's plane, exactly.
+    fn is_seen_from(&self, points: &[Vector3<f64>], point: usize) -> bool {
+        let [a, b, c] = self.corners.map(|i| coordinates(&points[i]));
+        orient3d(a, b, c, coordinates(&points[point])) < 0.0
     }
 
     fn edges(&self) -> [(usize, usize); 3] {
         let [a, b, c] = self.corners;
         [(a, b), (b, c), (c, a)]
     }
+}
+
+fn coordinates(point: &Vector3<f64>) -> Coord3D<f64> {
+    Coord3D { x: point.x, y: point.y, z: point.z }
 }
 
 struct Builder<'a> {
@@ -100,7 +116,10 @@ impl Builder<'_> {
     /// Gives each point to one of the facets from `first` that see it.
     fn hand_out(&mut self, points: impl IntoIterator<Item = usize>, first: usize) {
         for point in points {
-            let sees = |facet: &&mut Facet| facet.height(&self.points[point]) > self.tolerance;
+            let sees = |facet: &&mut Facet| {
+                facet.height(&self.points[point]) > self.tolerance
+                    && facet.is_seen_from(self.points, point)
+            };
             if let Some(facet) = self.facets[first..].iter_mut().find(sees) {
                 facet.outside.push(point);
             }
@@ -124,7 +143,7 @@ impl Builder<'_> {
                 if !facet.alive {
                     continue;
                 }
-                if facet.height(&self.points[apex]) > self.tolerance {
+                if facet.is_seen_from(self.points, apex) {
                     facet.alive = false;
                     visible.push(neighbour);
                 } else {
@@ -185,6 +204,12 @@ fn first_tetrahedron(points: &[Vector3<f64>]) -> Option<[usize; 4]> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+    use rand_distr::UnitSphere;
+
     use super::*;
 
     fn grid(side: i32) -> Vec<Vector3<f64>> {
@@ -194,6 +219,22 @@ mod tests {
         rows.flat_map(|(x, y)| (0..=side).map(move |z| point(x, y, z))).collect()
     }
 
+    /// Each edge has one triangle on either side, and no point is outside.
+    fn assert_closed_around(hull: &Mesh, points: &[Vector3<f64>]) {
+        let edges = |&[a, b, c]: &[usize; 3]| [(a, b), (b, c), (c, a)];
+        let directed: Vec<_> = hull.triangles.iter().flat_map(edges).collect();
+        let distinct: HashSet<_> = directed.iter().copied().collect();
+        assert_eq!(directed.len(), distinct.len());
+        assert!(distinct.iter().all(|&(from, to)| distinct.contains(&(to, from))));
+        assert_eq!(hull.triangles.len(), 2 * hull.vertices.len() - 4, "Euler");
+        let near = 2.0 * FLATNESS * size(points);
+        for triangle in &hull.triangles {
+            let [a, b, c] = triangle.map(|i| hull.vertices[i]);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            assert!(points.iter().all(|p| normal.dot(&(p - a)) < near));
+        }
+    }
+
     #[test]
     fn a_grid_of_points_has_the_hull_of_its_corners() {
         let hull = convex_hull(&grid(4));
@@ -201,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn every_point_is_inside_and_the_surface_is_closed() {
+    fn every_point_is_inside_a_closed_surface() {
         let angle = |i: usize| i as f64 * 2.399963;
         let points: Vec<_> = (0..3000)
             .map(|i| {
@@ -211,15 +252,25 @@ mod tests {
             })
             .collect();
         let hull = convex_hull(&points);
-        // Euler: a closed surface of triangles has 2 V − 4 of them.
-        assert_eq!(hull.triangles.len(), 2 * hull.vertices.len() - 4);
-        for [a, b, c] in &hull.triangles {
-            let [a, b, c] = [*a, *b, *c].map(|i| hull.vertices[i]);
-            let normal = (b - a).cross(&(c - a)).normalize();
-            assert!(points.iter().all(|p| normal.dot(&(p - a)) < 1e-8));
-        }
+        assert_closed_around(&hull, &points);
         let sphere = 4.0 / 3.0 * std::f64::consts::PI;
         assert!((0.97..1.0).contains(&(hull.volume() / sphere)), "{}", hull.volume());
+    }
+
+    /// The polars of boxes whose extents are known to a billionth: many points almost on a few planes.
+    #[test]
+    fn nearly_coplanar_points_leave_no_hole() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..100 {
+            let half: [f64; 3] = std::array::from_fn(|_| random.random_range(0.1..1.0));
+            let corner = |n: Vector3<f64>| (0..3).map(|i| half[i] * n[i].abs()).sum::<f64>();
+            let polar = |_| {
+                let direction = Vector3::from(random.sample::<[f64; 3], _>(UnitSphere));
+                direction / (corner(direction) * (1.0 + random.random_range(-1e-9..1e-9)))
+            };
+            let points: Vec<_> = (0..300).map(polar).collect();
+            assert_closed_around(&convex_hull(&points), &points);
+        }
     }
 
     #[test]

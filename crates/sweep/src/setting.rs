@@ -7,7 +7,7 @@ use righting_maneuver::envelope::fibonacci;
 use righting_maneuver::json::{Bounds, Place, shown};
 use serde_json::{Value, json};
 
-use crate::draw::Stream;
+use crate::draw::Draws;
 use crate::file;
 
 const FINITE: Bounds = Bounds::Between(-1e300, 1e300);
@@ -34,9 +34,9 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Settings {
     Listed(Vec<Value>),
-    Uniform { low: f64, high: f64, count: usize, stream: Stream },
-    Normal { mean: f64, deviation: f64, count: usize, stream: Stream },
-    Directions { count: usize, stream: Stream },
+    Uniform { low: f64, high: f64, count: usize, draws: Draws },
+    Normal { mean: f64, deviation: f64, count: usize, draws: Draws },
+    Directions { count: usize, draws: Draws },
 }
 
 impl Settings {
@@ -64,7 +64,7 @@ impl Settings {
                 return Err(place.refuse(format!("{several} of them"), format!("one of {RULES}")));
             }
         }
-        let stream = |seed: u64| Stream::new(seed, field);
+        let draws = |seed: u64| Draws::new(seed, field);
         if let Some(values) = values {
             listed(values, &place.key("values"))
         } else if let Some(grid) = grid {
@@ -80,19 +80,19 @@ impl Settings {
                 return Err(place.key("high").refuse(high, format!("a number above {low}")));
             }
             let count = count_of(uniform.count, MOST_DRAWN, &place.key("count"))?;
-            Ok(Self::Uniform { low, high, count, stream: stream(uniform.seed) })
+            Ok(Self::Uniform { low, high, count, draws: draws(uniform.seed) })
         } else if let Some(normal) = normal {
             let place = place.key("normal");
             Ok(Self::Normal {
                 mean: place.key("mean").within(normal.mean, FINITE)?,
                 deviation: place.key("deviation").within(normal.deviation, DEVIATION)?,
                 count: count_of(normal.count, MOST_DRAWN, &place.key("count"))?,
-                stream: stream(normal.seed),
+                draws: draws(normal.seed),
             })
         } else if let Some(directions) = directions {
             let place = place.key("directions").key("count");
             let count = count_of(directions.count, MOST_DRAWN, &place)?;
-            Ok(Self::Directions { count, stream: stream(directions.seed) })
+            Ok(Self::Directions { count, draws: draws(directions.seed) })
         } else {
             unreachable!("one of them is given")
         }
@@ -124,11 +124,11 @@ impl Settings {
     pub fn get(&self, index: usize) -> Value {
         match self {
             Self::Listed(values) => values[index].clone(),
-            Self::Uniform { low, high, stream, .. } => json!(stream.uniform(index, *low, *high)),
-            Self::Normal { mean, deviation, stream, .. } => {
-                json!(stream.normal(index, *mean, *deviation))
+            Self::Uniform { low, high, draws, .. } => json!(draws.uniform(index, *low, *high)),
+            Self::Normal { mean, deviation, draws, .. } => {
+                json!(draws.normal(index, *mean, *deviation))
             }
-            Self::Directions { stream, .. } => json!(stream.direction(index)),
+            Self::Directions { draws, .. } => json!(draws.direction(index)),
         }
     }
 }
