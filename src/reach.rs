@@ -89,7 +89,7 @@ fn percent(text: &str) -> Result<f64, String> {
 
 fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| (low..=high).contains(value));
-    value.ok_or_else(|| format!("a number from {low} to {high} is needed"))
+    value.ok_or_else(|| format!("expected a number from {low} to {high}"))
 }
 
 /// What reach.json holds and `--json` prints.

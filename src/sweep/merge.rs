@@ -24,7 +24,7 @@ pub struct Arguments {
 
 /// Merges.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    merge(&SweepFolder::at(&arguments.folder), arguments.json)
+    merge(&super::planned(&arguments.folder)?, arguments.json)
 }
 
 /// Writes the results of the records that there are, and prints their summary.

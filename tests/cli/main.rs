@@ -10,6 +10,7 @@ mod figures;
 mod full_disk;
 #[path = "../../crates/maneuver/tests/support/json_schema.rs"]
 mod json_schema;
+mod kinds;
 mod library;
 mod machine;
 #[cfg(unix)]

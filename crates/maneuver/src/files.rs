@@ -11,23 +11,23 @@ use crate::error::Error;
 /// The largest JSON file that is read.
 pub const JSON_LIMIT_BYTES: u64 = 64 << 20;
 
-/// Opens a file; `needed` says what it should be, for the message about a directory.
-pub(crate) fn open(file: &Path, needed: &'static str) -> Result<File, Error> {
+/// Opens a file; `expected` says what it should be, for the message about a directory.
+pub(crate) fn open(file: &Path, expected: &'static str) -> Result<File, Error> {
     let failed = |source| Error::Read { file: file.to_owned(), source };
     let opened = File::open(file).map_err(failed)?;
     if opened.metadata().map_err(failed)?.is_dir() {
-        return Err(Error::Directory { file: file.to_owned(), needed });
+        return Err(Error::Directory { file: file.to_owned(), expected });
     }
     Ok(opened)
 }
 
-/// Reads a text file of at most `limit_bytes`; `needed` says what it should be.
+/// Reads a text file of at most `limit_bytes`; `expected` says what it should be.
 ///
 /// # Errors
 /// [`Error::Read`], [`Error::Directory`] and [`Error::TooLarge`].
-pub fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Result<String, Error> {
+pub fn read(file: &Path, expected: &'static str, limit_bytes: u64) -> Result<String, Error> {
     let failed = |source| Error::Read { file: file.to_owned(), source };
-    let opened = open(file, needed)?;
+    let opened = open(file, expected)?;
     let too_large = |bytes| Error::TooLarge { file: file.to_owned(), bytes, limit_bytes };
     let announced = opened.metadata().map_err(failed)?.len();
     if announced > limit_bytes {
