@@ -31,6 +31,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+use crate::output::Label;
 
 /// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
 #[derive(Parser)]
@@ -70,6 +71,9 @@ fn main() -> ExitCode {
     blas::use_one_thread();
     let command = Arguments::parse().command;
     let json = command.prints_json();
+    if json {
+        output::never_in_color();
+    }
     let result = match command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
@@ -108,9 +112,9 @@ impl Command {
 
 /// Says on stderr what went wrong; who asked for JSON gets one object whatever happens.
 fn complain(failure: &Failure, json: bool) -> ExitCode {
-    output::complain(&format!("error: {failure}"));
+    output::say(Label::Error, &failure.to_string());
     if let Some(hint) = failure.hint() {
-        output::complain(&format!("  hint: {hint}"));
+        output::say(Label::Hint, hint);
     }
     if json && !failure.follows_results() {
         let object = serde_json::json!({

@@ -18,6 +18,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats, draw};
 use crate::interrupt::Interrupt;
+use crate::output::Label;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
 use crate::{build, output};
@@ -114,11 +115,11 @@ fn nearest(folder: &Path, scenario: &Scenario) -> Result<(String, Option<Traject
     let neighbor = library.nearest(scenario);
     let shown = folder.display();
     for skipped in library.skipped().iter().take(MOST_WARNINGS) {
-        output::complain(&format!("warning: {shown}: skipped {skipped}"));
+        output::say(Label::Warning, &format!("{shown}: skipped {skipped}"));
     }
     let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
     if more > 0 {
-        output::complain(&format!("warning: {shown}: skipped {more} more"));
+        output::say(Label::Warning, &format!("{shown}: skipped {more} more"));
     }
     Ok(match neighbor {
         Some(near) => (

@@ -3,6 +3,8 @@
 mod bad_input;
 #[cfg(unix)]
 mod browser;
+#[cfg(target_os = "linux")]
+mod color;
 mod documents;
 mod envelope;
 mod export;
