@@ -20,6 +20,7 @@ mod power;
 mod progress;
 mod reach;
 mod report;
+mod scenario_input;
 mod schema;
 mod solve;
 mod sweep;

@@ -21,12 +21,12 @@ use crate::interrupt::Interrupt;
 use crate::output::Label;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
-use crate::{build, output};
+use crate::{build, output, scenario_input};
 
 /// Plan the maneuver of a scenario, verify the plan and write it to a folder.
 #[derive(Args)]
 pub struct Arguments {
-    /// The scenario, a JSON file.
+    /// The scenario, a JSON file; - for standard input.
     scenario: PathBuf,
     /// The folder for trajectory.csv, solution.json, the figures and report.html; made if missing.
     #[arg(long, value_name = "DIR")]
@@ -66,11 +66,12 @@ struct Printed<'a> {
 /// Solves, verifies, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
-    let interrupt = Interrupt::watch();
     if arguments.figures == FigureSet::None && arguments.formats.png {
         return Err(Failure::Usage("--png and --figures none: there is no figure to write as PNG"));
     }
-    let scenario = Scenario::read(&arguments.scenario)?;
+    let scenario = scenario_input::read(&arguments.scenario)?;
+    // From here on: until then a signal may end the process while it waits for standard input.
+    let interrupt = Interrupt::watch();
     let load = started.elapsed();
     let mut note = None;
     let earlier = match (&arguments.warm_start, &arguments.library) {

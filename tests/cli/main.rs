@@ -22,6 +22,7 @@ mod program;
 mod reach;
 mod scenarios;
 mod solve;
+mod standard_input;
 mod streams;
 mod sweep;
 mod sweep_faults;
