@@ -41,6 +41,20 @@ pub enum Failure {
         /// What is in the way.
         problem: String,
     },
+    /// An earlier plan to start from is of an arm with more or fewer joints.
+    #[error(
+        "{}: {}",
+        folder.display(),
+        Mismatch::new(format_args!("a plan of {found} joints"), expected)
+    )]
+    OtherArm {
+        /// The folder of the earlier plan.
+        folder: PathBuf,
+        /// How many joints its arm has.
+        found: usize,
+        /// How many the scenario's has.
+        expected: usize,
+    },
     /// Arguments that contradict each other, beyond what the parser sees.
     #[error("{0}")]
     Usage(&'static str),
@@ -123,6 +137,7 @@ impl Failure {
             Self::Input(_)
             | Self::InputOf { .. }
             | Self::NotAFolder { .. }
+            | Self::OtherArm { .. }
             | Self::OutputFolder { .. }
             | Self::Usage(_)
             | Self::Sweep(_)

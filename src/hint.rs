@@ -36,6 +36,7 @@ impl Failure {
             Self::NotShown { .. } => {
                 Some("`righting figures` and `righting report` make the rest, from that folder")
             }
+            Self::OtherArm { .. } => Some("a warm start is an earlier plan of the scenario's arm"),
             Self::OutputFolder { .. } => Some("name another folder"),
             Self::NoPlan { status: Status::Infeasible } => {
                 Some("a longer duration, a smaller angle or wider limits may make it possible")

@@ -25,6 +25,7 @@ mod schema;
 mod solve;
 mod sweep;
 mod verify;
+mod warm_start;
 mod wheels;
 
 use std::process::ExitCode;

@@ -144,12 +144,16 @@ fn a_file_where_a_folder_is_expected_is_said_to_be_one() {
         let message = "scenario.json: found a file, expected the folder of a plan";
         assert_said(&run(at, &format!("{command} scenario.json")), message, None);
     }
-    let message = "arm.json: found a file, expected the folder of a plan";
-    assert_said(&run(at, "export --format npz arm.json"), message, None);
+    for line in ["export --format npz", "solve scenario.json --out o --warm-start"] {
+        let message = "arm.json: found a file, expected the folder of a plan";
+        assert_said(&run(at, &format!("{line} arm.json")), message, None);
+    }
     for command in ["run", "merge", "show", "slurm --shards 2"] {
         let message = "sweep.json: found a file, expected the folder of a sweep";
         assert_said(&run(at, &format!("sweep {command} sweep.json")), message, None);
     }
+    let message = "arm.json: found a file, expected the folder of a library";
+    assert_said(&run(at, "solve scenario.json --out o --library arm.json"), message, None);
 }
 
 /// Each kind of file has its own format to look at.

@@ -28,3 +28,4 @@ mod sweep;
 mod sweep_faults;
 mod usage;
 mod verify;
+mod warm_start;

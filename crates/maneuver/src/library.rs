@@ -187,7 +187,8 @@ fn system(scenario: &file::Scenario) -> Option<&file::System> {
     }
 }
 
-fn is_same_arm(a: &file::Scenario, b: &file::Scenario) -> bool {
+/// Whether two resolved scenarios are of the same arm, as the [module](self) means it.
+pub fn is_same_arm(a: &file::Scenario, b: &file::Scenario) -> bool {
     let (Some(a), Some(b)) = (system(a), system(b)) else { return false };
     let row = |link: &file::Link| [link.a_m, link.alpha_deg, link.d_m, link.theta_deg];
     a.dh_convention == b.dh_convention
