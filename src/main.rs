@@ -6,6 +6,7 @@
 
 mod blas;
 mod build;
+mod completions;
 mod doctor;
 mod envelope;
 mod export;
@@ -13,6 +14,7 @@ mod failure;
 mod figures;
 mod hint;
 mod interrupt;
+mod manpages;
 mod output;
 mod output_folder;
 mod plan_folder;
@@ -37,11 +39,14 @@ use crate::output::Label;
 
 /// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
 #[derive(Parser)]
-#[command(name = "righting", version = build::VERSION, after_help = EXIT_CODES)]
+#[command(name = NAME, version = build::VERSION, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
+
+/// Name of the program.
+const NAME: &str = "righting";
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -67,6 +72,8 @@ enum Command {
     Export(export::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
+    Completions(completions::Arguments),
+    Manpages(manpages::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -89,6 +96,8 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Manpages(arguments) => manpages::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -106,7 +115,12 @@ impl Command {
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
-            Self::Figures(_) | Self::Export(_) | Self::SweepWorker | Self::Schema(_) => false,
+            Self::Figures(_)
+            | Self::Export(_)
+            | Self::SweepWorker
+            | Self::Schema(_)
+            | Self::Completions(_)
+            | Self::Manpages(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }
     }

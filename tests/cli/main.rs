@@ -5,6 +5,7 @@ mod bad_input;
 mod browser;
 #[cfg(target_os = "linux")]
 mod color;
+mod completions;
 mod documents;
 mod envelope;
 mod export;
@@ -15,6 +16,7 @@ mod json_schema;
 mod kinds;
 mod library;
 mod machine;
+mod manpages;
 #[cfg(unix)]
 mod page;
 mod power;
