@@ -34,7 +34,8 @@ fn replace_process(command: &mut Command) {
         command.arg0(name);
     }
     let error = command.exec();
-    crate::output::complain(&format!("warning: could not restrict BLAS to one thread: {error}"));
+    let problem = format!("could not restrict BLAS to one thread: {error}");
+    crate::output::say(crate::output::Label::Warning, &problem);
 }
 
 #[cfg(not(unix))]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use righting_maneuver::envelope::{Sizing, read_system_or_scenario};
+use righting_maneuver::json::FileKind;
 use righting_maneuver::wheels::{Radii, Wheel, Zonotope};
 use righting_maneuver::{Envelope, Envelopes, WheelArray, envelopes};
 use righting_report::{EnvelopeOutlines, envelope_svg};
@@ -69,7 +70,8 @@ struct PrintedWheels<'a> {
 /// Reads, searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
-    let system = read_system_or_scenario(&arguments.file)?;
+    let system = read_system_or_scenario(&arguments.file)
+        .map_err(|error| Failure::InputOf { kind: FileKind::SystemOrScenario, error })?;
     let wheels = arguments.wheels.read()?;
     let folder = OutputFolder::open(&arguments.out)?;
     let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);

@@ -1,8 +1,10 @@
 //! Everything that ends a command with an exit code other than 0.
 
-use std::io::{self, ErrorKind};
+use std::io;
 use std::path::PathBuf;
 
+use righting_maneuver::error::Mismatch;
+use righting_maneuver::json::FileKind;
 use righting_maneuver::verifier::ATTITUDE_ERROR;
 use righting_maneuver::{PlanError, ReachError, Solution, Status};
 use righting_report::{ReportError, status_phrase};
@@ -14,6 +16,23 @@ pub enum Failure {
     /// A file of the user's is wrong or cannot be read or written.
     #[error(transparent)]
     Input(#[from] righting_maneuver::Error),
+    /// The same of a file that is no scenario.
+    #[error("{error}")]
+    InputOf {
+        /// What the file should be.
+        kind: FileKind,
+        /// What is wrong with it.
+        #[source]
+        error: righting_maneuver::Error,
+    },
+    /// A file stands where a folder is expected.
+    #[error("{}: {}", path.display(), Mismatch::new("a file", expected))]
+    NotAFolder {
+        /// The file.
+        path: PathBuf,
+        /// Such as "the folder of a plan".
+        expected: &'static str,
+    },
     /// The output folder cannot take results; found out before solving.
     #[error("{}: cannot hold results: {problem}", folder.display())]
     OutputFolder {
@@ -21,6 +40,20 @@ pub enum Failure {
         folder: PathBuf,
         /// What is in the way.
         problem: String,
+    },
+    /// An earlier plan to start from is of an arm with more or fewer joints.
+    #[error(
+        "{}: {}",
+        folder.display(),
+        Mismatch::new(format_args!("a plan of {found} joints"), expected)
+    )]
+    OtherArm {
+        /// The folder of the earlier plan.
+        folder: PathBuf,
+        /// How many joints its arm has.
+        found: usize,
+        /// How many the scenario's has.
+        expected: usize,
     },
     /// Arguments that contradict each other, beyond what the parser sees.
     #[error("{0}")]
@@ -102,6 +135,9 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_)
+            | Self::InputOf { .. }
+            | Self::NotAFolder { .. }
+            | Self::OtherArm { .. }
             | Self::OutputFolder { .. }
             | Self::Usage(_)
             | Self::Sweep(_)
@@ -113,55 +149,6 @@ impl Failure {
             Self::NoPlan { .. } | Self::NotPlanned(_) | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
             Self::Interrupted => 130,
-        }
-    }
-
-    /// What may help, where that is not plain from the message.
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::Input(righting_maneuver::Error::Field { .. }) => {
-                Some("`righting schema` prints the format with every field")
-            }
-            Self::Sweep(SweepError::Input(righting_maneuver::Error::Field { .. })) => {
-                Some("`righting schema sweep` prints the format with every field")
-            }
-            Self::Sweep(SweepError::Occupied { .. }) => {
-                Some("add --resume to go on from there, or name another folder with --out")
-            }
-            Self::Sweep(SweepError::Write { source, .. }) => Some(match source.kind() {
-                ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
-                    "what is recorded is safe: make it writable, then go on (a whole sweep with --resume)"
-                }
-                _ => {
-                    "what is recorded is safe: make room, then go on (a whole sweep with --resume)"
-                }
-            }),
-            Self::Report(ReportError::NoPng) => {
-                Some("build it with `cargo build --release --features png`")
-            }
-            Self::Report(ReportError::NoFonts) => {
-                Some("install some, such as Debian's fonts-dejavu-core, or leave --png out")
-            }
-            Self::NotShown { .. } => {
-                Some("`righting figures` and `righting report` make the rest, from that folder")
-            }
-            Self::OutputFolder { .. } => Some("name another folder with --out"),
-            Self::NoPlan { status: Status::Infeasible } => {
-                Some("a longer duration, a smaller angle or wider limits may make it possible")
-            }
-            Self::NoPlan { status: Status::IterationLimit } => {
-                Some("raise solver.max_iterations, or try solver.guess \"auto\"")
-            }
-            Self::NoPlan { .. } => Some("another solver.guess or a longer duration may help"),
-            Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
-            Self::OutOfReach { .. } => Some(
-                "wider limits, a smaller weights.control or more --starts may make it possible",
-            ),
-            Self::Unproven { falls_short: true, .. } => {
-                Some("it misses its target: a longer duration or a smaller angle may help")
-            }
-            Self::Unproven { .. } => Some("do not use this plan"),
-            _ => None,
         }
     }
 

@@ -6,22 +6,28 @@
 
 mod blas;
 mod build;
+mod completions;
 mod doctor;
 mod envelope;
 mod export;
 mod failure;
 mod figures;
+mod hint;
 mod interrupt;
+mod manpages;
 mod output;
 mod output_folder;
+mod plan_folder;
 mod power;
 mod progress;
 mod reach;
 mod report;
+mod scenario_input;
 mod schema;
 mod solve;
 mod sweep;
 mod verify;
+mod warm_start;
 mod wheels;
 
 use std::process::ExitCode;
@@ -29,14 +35,18 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+use crate::output::Label;
 
 /// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
 #[derive(Parser)]
-#[command(name = "righting", version = build::VERSION, after_help = EXIT_CODES)]
+#[command(name = NAME, version = build::VERSION, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
+
+/// Name of the program.
+const NAME: &str = "righting";
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -62,12 +72,17 @@ enum Command {
     Export(export::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
+    Completions(completions::Arguments),
+    Manpages(manpages::Arguments),
 }
 
 fn main() -> ExitCode {
     blas::use_one_thread();
     let command = Arguments::parse().command;
     let json = command.prints_json();
+    if json {
+        output::never_in_color();
+    }
     let result = match command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
@@ -81,6 +96,8 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Manpages(arguments) => manpages::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -98,7 +115,12 @@ impl Command {
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
-            Self::Figures(_) | Self::Export(_) | Self::SweepWorker | Self::Schema(_) => false,
+            Self::Figures(_)
+            | Self::Export(_)
+            | Self::SweepWorker
+            | Self::Schema(_)
+            | Self::Completions(_)
+            | Self::Manpages(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }
     }
@@ -106,9 +128,9 @@ impl Command {
 
 /// Says on stderr what went wrong; who asked for JSON gets one object whatever happens.
 fn complain(failure: &Failure, json: bool) -> ExitCode {
-    output::complain(&format!("error: {failure}"));
+    output::say(Label::Error, &failure.to_string());
     if let Some(hint) = failure.hint() {
-        output::complain(&format!("  hint: {hint}"));
+        output::say(Label::Hint, hint);
     }
     if json && !failure.follows_results() {
         let object = serde_json::json!({

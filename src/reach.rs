@@ -16,10 +16,10 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats};
 use crate::interrupt::Interrupt;
-use crate::output;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::solve::{Shown, Times, assemble, write};
+use crate::{output, scenario_input};
 
 const JSON_FILE: &str = "reach.json";
 const FIGURE_FILE: &str = "reach.svg";
@@ -41,7 +41,7 @@ const PLAN_FOLDER: &str = "plan";
 #[derive(Args)]
 #[command(mut_arg("png", |png| png.requires("out")))]
 pub struct Arguments {
-    /// The scenario, a JSON file.
+    /// The scenario, a JSON file; - for standard input.
     scenario: PathBuf,
     /// What to vary.
     #[arg(long, value_enum, default_value_t = What::Duration)]
@@ -89,7 +89,7 @@ fn percent(text: &str) -> Result<f64, String> {
 
 fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| (low..=high).contains(value));
-    value.ok_or_else(|| format!("a number from {low} to {high} is needed"))
+    value.ok_or_else(|| format!("expected a number from {low} to {high}"))
 }
 
 /// What reach.json holds and `--json` prints.
@@ -150,12 +150,13 @@ pub fn schema() -> Value {
 /// Searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
+    let mut scenario = scenario_input::read(&arguments.scenario)?;
+    // From here on: until then a signal may end the process while it waits for standard input.
     let interrupt = Interrupt::watch();
-    let mut scenario = Scenario::read(&arguments.scenario)?;
     if arguments.control_weight.is_some() {
         let mut file = scenario.resolved().clone();
         file.weights.control = arguments.control_weight;
-        scenario = Scenario::from_file(file, &arguments.scenario)?;
+        scenario = Scenario::from_file(file, scenario_input::name(&arguments.scenario))?;
     }
     if arguments.within.is_some() && *scenario.maneuver() != Maneuver::Detumble {
         return Err(Failure::Usage("--within: only a detumble leaves a rate, this is a slew"));

@@ -1,6 +1,6 @@
 //! `righting solve`: plan a maneuver, prove it, write it down.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -8,8 +8,8 @@ use righting_maneuver::detumble::rate_bound_rad_s;
 use righting_maneuver::solution::SCHEMA;
 use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_maneuver::{
-    IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
-    Trajectory, Verification, Versions, plan, plan_from, verify,
+    IterationRecord, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory,
+    Verification, Versions, plan, plan_from, verify,
 };
 use righting_ocp::{Control, UsedLinearSolver};
 use righting_report::{FigureWriter, report_html, summary};
@@ -20,12 +20,13 @@ use crate::figures::{FigureSet, Formats, draw};
 use crate::interrupt::Interrupt;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
-use crate::{build, output};
+use crate::warm_start::WarmStart;
+use crate::{build, output, scenario_input};
 
 /// Plan the maneuver of a scenario, verify the plan and write it to a folder.
 #[derive(Args)]
 pub struct Arguments {
-    /// The scenario, a JSON file.
+    /// The scenario, a JSON file; - for standard input.
     scenario: PathBuf,
     /// The folder for trajectory.csv, solution.json, the figures and report.html; made if missing.
     #[arg(long, value_name = "DIR")]
@@ -35,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     warm_start: Option<PathBuf>,
     /// A folder of such result folders: the nearest maneuver of the same arm and type is a start
-    /// too. To add this plan to it, name a folder in it with --out.
+    /// too. To add this plan to it, name a folder in it with --out. Made if missing.
     #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
     library: Option<PathBuf>,
     /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
@@ -51,9 +52,6 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// So many subfolders of a library that are of no use are named.
-const MOST_WARNINGS: usize = 10;
-
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Printed<'a> {
@@ -65,21 +63,17 @@ struct Printed<'a> {
 /// Solves, verifies, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
-    let interrupt = Interrupt::watch();
     if arguments.figures == FigureSet::None && arguments.formats.png {
         return Err(Failure::Usage("--png and --figures none: there is no figure to write as PNG"));
     }
-    let scenario = Scenario::read(&arguments.scenario)?;
+    let scenario = scenario_input::read(&arguments.scenario)?;
+    // From here on: until then a signal may end the process while it waits for standard input.
+    let interrupt = Interrupt::watch();
     let load = started.elapsed();
-    let mut note = None;
-    let earlier = match (&arguments.warm_start, &arguments.library) {
-        (Some(folder), _) => Some(Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?),
-        (None, Some(library)) => {
-            let (said, trajectory) = nearest(library, &scenario)?;
-            note = Some(said);
-            trajectory
-        }
-        (None, None) => None,
+    let warm_start = match (&arguments.warm_start, &arguments.library) {
+        (Some(folder), _) => WarmStart::of_plan(folder, &scenario)?,
+        (None, Some(library)) => WarmStart::of_library(library, &scenario)?,
+        (None, None) => WarmStart::default(),
     };
     let writer = arguments.formats.writer()?;
     let folder = OutputFolder::open(&arguments.out)?;
@@ -89,11 +83,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         progress.show(record);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     };
-    let mut plan = match &earlier {
+    let mut plan = match &warm_start.trajectory {
         Some(earlier) => plan_from(&scenario, earlier, &mut on_iteration)?,
         None => plan(&scenario, &mut on_iteration)?,
     };
-    plan.notes.splice(..0, note);
+    plan.notes.splice(..0, warm_start.note);
     progress.show_stage("verifying");
     let mut solution = checked(&scenario, &plan, load);
     let shown = Shown { figures: arguments.figures, writer: &writer, page: !arguments.no_report };
@@ -106,30 +100,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::print(&summary(&solution, &files.paths()))?;
     }
     conclude(&solution)
-}
-
-/// What a reader of the plan should know of the library, and the motion to start from, if it holds one.
-fn nearest(folder: &Path, scenario: &Scenario) -> Result<(String, Option<Trajectory>), Failure> {
-    let mut library = Library::read(folder)?;
-    let neighbor = library.nearest(scenario);
-    let shown = folder.display();
-    for skipped in library.skipped().iter().take(MOST_WARNINGS) {
-        output::complain(&format!("warning: {shown}: skipped {skipped}"));
-    }
-    let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
-    if more > 0 {
-        output::complain(&format!("warning: {shown}: skipped {more} more"));
-    }
-    Ok(match neighbor {
-        Some(near) => (
-            format!(
-                "library maneuver {} was a start too (distance {:.3})",
-                near.name, near.distance
-            ),
-            Some(near.trajectory),
-        ),
-        None => (format!("library {shown} holds no maneuver of this type by this arm"), None),
-    })
 }
 
 /// Whether that is what was asked for.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use righting_maneuver::files;
-use righting_report::{errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_report::{open_loop_errors_svg, slew_limits_svg, slews_html, slews_svg};
 use righting_sweep::{CaseStatus, Slews, Summary, SweepFolder, Table};
 
 use super::show;
@@ -24,7 +24,7 @@ pub struct Arguments {
 
 /// Merges.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    merge(&SweepFolder::at(&arguments.folder), arguments.json)
+    merge(&super::planned(&arguments.folder)?, arguments.json)
 }
 
 /// Writes the results of the records that there are, and prints their summary.
@@ -63,7 +63,7 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     // The error is the sine of half the angle.
     let errors_deg: Vec<f64> =
         flown.map(|row| 2.0 * row.attitude_error.asin().to_degrees()).collect();
-    if let Some(figure) = errors_svg(&summary.sweep, &errors_deg) {
+    if let Some(figure) = open_loop_errors_svg(&summary.sweep, &errors_deg) {
         write("errors.svg", &|writer| writer.write_all(figure.as_bytes()))?;
     }
     show::print(&summary, &files, json)

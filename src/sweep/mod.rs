@@ -9,7 +9,7 @@ mod slurm;
 
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use righting_sweep::{Shard, SweepError, SweepFolder, worker};
@@ -17,6 +17,7 @@ use righting_sweep::{Shard, SweepError, SweepFolder, worker};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output_folder::OutputFolder;
+use crate::plan_folder;
 
 /// Plan and verify every case of a sweep file.
 ///
@@ -83,6 +84,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(whole)) => run_whole(whole),
         (None, None) => unreachable!("a file is required where there is no part"),
     }
+}
+
+/// A folder that should be one of a planned sweep.
+fn planned(folder: &Path) -> Result<SweepFolder, Failure> {
+    plan_folder::refuse_file(folder, "the folder of a sweep")?;
+    Ok(SweepFolder::at(folder))
 }
 
 fn run_whole(whole: &Whole) -> Result<(), Failure> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use righting_maneuver::files;
-use righting_sweep::{Sweep, SweepError, SweepFolder};
+use righting_sweep::{Sweep, SweepError};
 
 use crate::failure::Failure;
 use crate::output;
@@ -42,7 +42,7 @@ pub struct Arguments {
 
 /// Writes the script and says how to submit it.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let sweep = SweepFolder::at(&arguments.folder).sweep()?;
+    let sweep = super::planned(&arguments.folder)?.sweep()?;
     let absolute = |path: &Path| {
         std::fs::canonicalize(path)
             .map_err(|source| SweepError::Read { path: path.to_owned(), source })
@@ -120,6 +120,6 @@ fn word(text: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || "._-:,".contains(c);
     match !text.is_empty() && text.chars().all(plain) {
         true => Ok(text.to_owned()),
-        false => Err("letters, digits and . _ - : , only".to_owned()),
+        false => Err("expected letters, digits and . _ - : , only".to_owned()),
     }
 }

@@ -21,22 +21,30 @@ fn the_message_names_the_field_and_what_is_allowed() {
         scenario
     };
     for (path, value, part) in [
-        ("/horizon/steps", json!(0), "horizon.steps: 0 is not allowed"),
+        ("/horizon/steps", json!(0), "horizon.steps: found 0, expected a whole number from 1"),
         ("/horizon/steps", json!(1e9), "horizon.steps: "),
-        ("/horizon/steps", json!(2.5), "horizon.steps: 2.5 is not allowed"),
-        ("/horizon/duration_s", json!(-1), "horizon.duration_s: -1 is not allowed"),
+        ("/horizon/steps", json!(2.5), "horizon.steps: found 2.5, expected a whole number from 1"),
+        (
+            "/horizon/duration_s",
+            json!(-1),
+            "horizon.duration_s: found -1, expected a number above 0",
+        ),
         ("/horizon/duration_s", json!("long"), "horizon.duration_s: "),
         ("/maneuver/axis", json!([0, 0, 0]), "maneuver.axis: "),
         ("/maneuver/angle_deg", json!(1e308), "maneuver.angle_deg: "),
         ("/maneuver/type", json!("spin"), "maneuver.type: "),
-        ("/system/base/mass_kg", json!(-300), "system.base.mass_kg: -300 is not allowed"),
+        (
+            "/system/base/mass_kg",
+            json!(-300),
+            "system.base.mass_kg: found -300, expected a number above 0",
+        ),
         ("/system/links", json!([]), "system.links: "),
         ("/system/links/1/mass_kg", json!(null), "system.links[1].mass_kg: "),
         ("/system/links/1/angle_max_deg", json!(-91), "system.links[1].angle_m"),
         ("/initial/joint_angles_deg", json!([0, 120]), "initial.joint_angles_deg[1]: "),
         ("/initial/joint_angles_deg", json!([0]), "initial.joint_angles_deg"),
         ("/system", json!("absent.json"), "absent.json: cannot be read: no such file"),
-        ("/system", json!("."), "is a directory"),
+        ("/system", json!("."), "(.: found a directory, expected a system file)"),
     ] {
         assert_refused(&wrong(path, value), part);
     }
@@ -62,7 +70,8 @@ fn what_is_not_a_scenario_is_refused() {
     std::fs::remove_file(&path).expect("there");
     solve(folder.path()).assert_refused("scenario.json: cannot be read: no such file");
     std::fs::create_dir(&path).expect("room");
-    solve(folder.path()).assert_refused("scenario.json: is a directory");
+    solve(folder.path())
+        .assert_refused("scenario.json: found a directory, expected a scenario file");
 }
 
 #[test]

@@ -3,6 +3,9 @@
 mod bad_input;
 #[cfg(unix)]
 mod browser;
+#[cfg(target_os = "linux")]
+mod color;
+mod completions;
 mod documents;
 mod envelope;
 mod export;
@@ -10,8 +13,10 @@ mod figures;
 mod full_disk;
 #[path = "../../crates/maneuver/tests/support/json_schema.rs"]
 mod json_schema;
+mod kinds;
 mod library;
 mod machine;
+mod manpages;
 #[cfg(unix)]
 mod page;
 mod power;
@@ -19,8 +24,10 @@ mod program;
 mod reach;
 mod scenarios;
 mod solve;
+mod standard_input;
 mod streams;
 mod sweep;
 mod sweep_faults;
 mod usage;
 mod verify;
+mod warm_start;

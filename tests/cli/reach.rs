@@ -85,7 +85,7 @@ fn options_are_checked() {
         (&["--within", "nan"], "from 0 to 1000"),
         (&["--starts", "1001"], "0..=1000"),
         (&["--what", "mass"], "duration, angle"),
-        (&["--control-weight", "-1"], "weights.control: -1 is not allowed"),
+        (&["--control-weight", "-1"], "weights.control: found -1, expected a number from 0"),
     ] {
         let run = reach(folder.path(), arguments);
         assert_eq!(run.code, 2, "{arguments:?}");

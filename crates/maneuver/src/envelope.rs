@@ -23,7 +23,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::hull::{Mesh, convex_hull};
-use crate::json::Document;
+use crate::json::{Document, FileKind, Place};
 use crate::scenario::Scenario;
 use crate::system_description::SystemDescription;
 use crate::wheels::{WheelArray, Zonotope};
@@ -78,10 +78,11 @@ pub struct Envelope {
 /// # Errors
 /// As reading either.
 pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> {
-    if Document::read(file, "a system or scenario file")?.has_key("system") {
-        Ok(Scenario::read(file)?.system().clone())
+    let document = Document::read(file, FileKind::SystemOrScenario)?;
+    if document.has_key("system") {
+        Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
     } else {
-        SystemDescription::read(file)
+        SystemDescription::from_file(&document.decode()?, &Place::root(file))
     }
 }
 

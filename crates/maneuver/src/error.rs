@@ -4,9 +4,12 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use crate::json::FileKind;
+
 /// Any failure of this crate that is the input's or the file system's fault.
 ///
-/// Each message is one line: which file, where in it, what stands there and what is allowed.
+/// Each message is one line: which file, where in it, and the [`Mismatch`] of what stands there with
+/// what is expected there.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -19,15 +22,19 @@ pub enum Error {
         source: io::Error,
     },
     /// A directory stands where a file is needed.
-    #[error("{}: is a directory: {needed} is needed", file.display())]
+    #[error("{}: {}", file.display(), Mismatch::new("a directory", expected))]
     Directory {
         /// The directory.
         file: PathBuf,
         /// What should be there, such as "a scenario file".
-        needed: &'static str,
+        expected: &'static str,
     },
     /// A file is larger than anything this program reads.
-    #[error("{}: {bytes} bytes is not allowed: at most {limit_bytes} bytes", file.display())]
+    #[error(
+        "{}: {}",
+        file.display(),
+        Mismatch::new(format_args!("{bytes} bytes"), format_args!("at most {limit_bytes}"))
+    )]
     TooLarge {
         /// The file.
         file: PathBuf,
@@ -54,6 +61,16 @@ pub enum Error {
         /// What the JSON parser expected.
         reason: String,
     },
+    /// A JSON file is of another kind than the one expected.
+    #[error("{}: {}", file.display(), Mismatch::new(found, expected))]
+    Kind {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        found: FileKind,
+        /// What it should be.
+        expected: FileKind,
+    },
     /// A field of a JSON file is wrong.
     #[error("{}: {field}", file.display())]
     Field {
@@ -63,7 +80,7 @@ pub enum Error {
         field: Box<FieldError>,
     },
     /// A cell of a table is wrong.
-    #[error("{}: line {line}, column {column}: `{value}` is not allowed: {allowed}", file.display())]
+    #[error("{}: line {line}, column {column}: {mismatch}", file.display())]
     Cell {
         /// The file.
         file: PathBuf,
@@ -71,10 +88,8 @@ pub enum Error {
         line: u64,
         /// Name of the column.
         column: String,
-        /// What stands there.
-        value: String,
-        /// What is allowed there.
-        allowed: String,
+        /// What stands there and what should.
+        mismatch: Mismatch,
     },
     /// A table has the wrong header or the wrong number of cells or rows.
     #[error("{}: line {line}: {problem}", file.display())]
@@ -109,7 +124,7 @@ pub enum Error {
 
 /// The parts of a trajectory do not fit together: counts of nodes, intervals or joints differ.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what}: {found} is not allowed: {needed}")]
+#[error("{what}: {}", Mismatch::new(found, needed))]
 pub struct ShapeError {
     /// The part, such as "nodes" or "joint angles of node 3".
     pub what: String,
@@ -117,6 +132,23 @@ pub struct ShapeError {
     pub found: usize,
     /// How many there must be.
     pub needed: usize,
+}
+
+/// What stands somewhere and what should: the one sentence of every complaint about a value.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("found {found}, expected {expected}")]
+pub struct Mismatch {
+    /// What stands there, shortened to fit in a line.
+    pub found: String,
+    /// What would be right.
+    pub expected: String,
+}
+
+impl Mismatch {
+    /// That `found` stands where `expected` should.
+    pub fn new(found: impl fmt::Display, expected: impl fmt::Display) -> Self {
+        Self { found: found.to_string(), expected: expected.to_string() }
+    }
 }
 
 /// What is wrong with one field of a JSON file.
@@ -133,16 +165,11 @@ pub struct FieldError {
 #[non_exhaustive]
 pub enum FieldProblem {
     /// The value is of the wrong type, out of range or contradicts another field.
-    NotAllowed {
-        /// The value as JSON, shortened.
-        value: String,
-        /// What is allowed.
-        allowed: String,
-    },
+    Mismatch(Mismatch),
     /// The field is not there and has no default.
     Missing {
-        /// What is allowed; empty if the type says no more than "an object".
-        allowed: String,
+        /// What would be right; empty if the type does not say.
+        expected: String,
     },
     /// The format has no such field.
     Unknown {
@@ -161,20 +188,18 @@ impl fmt::Display for FieldError {
             write!(f, "{}: ", self.path)?;
         }
         match &self.problem {
-            FieldProblem::NotAllowed { value, allowed } => {
-                write!(f, "{value} is not allowed: {allowed}")
-            }
-            FieldProblem::Missing { allowed } if allowed.is_empty() => {
+            FieldProblem::Mismatch(mismatch) => mismatch.fmt(f),
+            FieldProblem::Missing { expected } if expected.is_empty() => {
                 f.write_str("missing: it has no default")
             }
-            FieldProblem::Missing { allowed } => write!(f, "missing: {allowed} is needed"),
+            FieldProblem::Missing { expected } => write!(f, "missing, expected {expected}"),
             FieldProblem::Unknown { nearest: Some(nearest), .. } => {
                 write!(f, "unknown field: did you mean `{nearest}`?")
             }
             FieldProblem::Unknown { nearest: None, known } => {
-                write!(f, "unknown field: the fields here are {}", known.join(", "))
+                write!(f, "unknown field, expected one of {}", known.join(", "))
             }
-            FieldProblem::Duplicate => f.write_str("duplicate field: it may appear once only"),
+            FieldProblem::Duplicate => f.write_str("duplicate field, expected once"),
         }
     }
 }

@@ -11,34 +11,44 @@ use crate::error::Error;
 /// The largest JSON file that is read.
 pub const JSON_LIMIT_BYTES: u64 = 64 << 20;
 
-/// Opens a file; `needed` says what it should be, for the message about a directory.
-pub(crate) fn open(file: &Path, needed: &'static str) -> Result<File, Error> {
+/// Opens a file; `expected` says what it should be, for the message about a directory.
+pub(crate) fn open(file: &Path, expected: &'static str) -> Result<File, Error> {
     let failed = |source| Error::Read { file: file.to_owned(), source };
     let opened = File::open(file).map_err(failed)?;
     if opened.metadata().map_err(failed)?.is_dir() {
-        return Err(Error::Directory { file: file.to_owned(), needed });
+        return Err(Error::Directory { file: file.to_owned(), expected });
     }
     Ok(opened)
 }
 
-/// Reads a text file of at most `limit_bytes`; `needed` says what it should be.
+/// Reads a text file of at most `limit_bytes`; `expected` says what it should be.
 ///
 /// # Errors
 /// [`Error::Read`], [`Error::Directory`] and [`Error::TooLarge`].
-pub fn read(file: &Path, needed: &'static str, limit_bytes: u64) -> Result<String, Error> {
+pub fn read(file: &Path, expected: &'static str, limit_bytes: u64) -> Result<String, Error> {
     let failed = |source| Error::Read { file: file.to_owned(), source };
-    let opened = open(file, needed)?;
-    let too_large = |bytes| Error::TooLarge { file: file.to_owned(), bytes, limit_bytes };
-    let announced = opened.metadata().map_err(failed)?.len();
-    if announced > limit_bytes {
-        return Err(too_large(announced));
+    let opened = open(file, expected)?;
+    let bytes = opened.metadata().map_err(failed)?.len();
+    if bytes > limit_bytes {
+        return Err(Error::TooLarge { file: file.to_owned(), bytes, limit_bytes });
     }
+    read_from(opened, file, limit_bytes)
+}
+
+/// Reads a text of at most `limit_bytes`; `name` stands for its file in errors.
+///
+/// # Errors
+/// [`Error::Read`] and [`Error::TooLarge`].
+pub fn read_from(source: impl Read, name: &Path, limit_bytes: u64) -> Result<String, Error> {
     let mut text = String::new();
-    opened.take(limit_bytes + 1).read_to_string(&mut text).map_err(failed)?;
-    if text.len() as u64 > limit_bytes {
-        return Err(too_large(text.len() as u64));
+    let read = source.take(limit_bytes + 1).read_to_string(&mut text);
+    read.map_err(|source| Error::Read { file: name.to_owned(), source })?;
+    match text.len() as u64 {
+        bytes if bytes > limit_bytes => {
+            Err(Error::TooLarge { file: name.to_owned(), bytes, limit_bytes })
+        }
+        _ => Ok(text),
     }
-    Ok(text)
 }
 
 /// Replaces `file` by what `print` writes, or leaves it as it was, also when the machine stops.

@@ -5,9 +5,11 @@
 //! checked value by value through a [`Place`].
 
 mod decode;
+mod kind;
 mod place;
 mod unique;
 
+pub use kind::FileKind;
 pub use place::{Bounds, Number, Place};
 
 use std::path::{Path, PathBuf};
@@ -23,26 +25,28 @@ use unique::{SyntaxError, SyntaxProblem};
 #[derive(Debug)]
 pub struct Document {
     file: PathBuf,
+    expected: FileKind,
     root: Value,
 }
 
 impl Document {
-    /// Reads a file; `needed` says what it should be, for the message about a directory.
+    /// Reads a file that should be of the kind `expected`.
     ///
     /// # Errors
     /// Those of reading; [`Error::NotJson`], and [`Error::Field`] for a key that appears twice.
-    pub fn read(file: &Path, needed: &'static str) -> Result<Self, Error> {
-        Self::parse(file, &files::read(file, needed, files::JSON_LIMIT_BYTES)?)
+    pub fn read(file: &Path, expected: FileKind) -> Result<Self, Error> {
+        let text = files::read(file, expected.phrase(), files::JSON_LIMIT_BYTES)?;
+        Self::parse(file, &text, expected)
     }
 
-    /// Parses the text of a file.
+    /// Parses the text of a file that should be of the kind `expected`.
     ///
     /// # Errors
     /// [`Error::NotJson`], and [`Error::Field`] for a key that appears twice.
-    pub fn parse(file: &Path, text: &str) -> Result<Self, Error> {
+    pub fn parse(file: &Path, text: &str, expected: FileKind) -> Result<Self, Error> {
         let file = file.to_owned();
         match unique::parse(text) {
-            Ok(root) => Ok(Self { file, root }),
+            Ok(root) => Ok(Self { file, expected, root }),
             Err(SyntaxError { path, problem: SyntaxProblem::Duplicate }) => {
                 let field = FieldError { path, problem: FieldProblem::Duplicate };
                 Err(Error::Field { file, field: Box::new(field) })
@@ -56,18 +60,20 @@ impl Document {
     /// Reads the tree as a typed value.
     ///
     /// # Errors
+    /// [`Error::Kind`] where the fields are those of another kind of file, otherwise
     /// [`Error::Field`] for the first field that does not fit the type.
     pub fn decode<'a, T: Deserialize<'a>>(&'a self) -> Result<T, Error> {
-        decode::decode(&self.root).map_err(|field| self.refuse(field))
+        decode::decode(&self.root).map_err(|field| match FileKind::of(&self.root) {
+            Some(found) if !self.expected.includes(found) => {
+                Error::Kind { file: self.file.clone(), found, expected: self.expected }
+            }
+            _ => Error::Field { file: self.file.clone(), field: Box::new(field) },
+        })
     }
 
     /// Whether the file holds an object with this key.
     pub(crate) fn has_key(&self, key: &str) -> bool {
         self.root.get(key).is_some()
-    }
-
-    fn refuse(&self, field: FieldError) -> Error {
-        Error::Field { file: self.file.clone(), field: Box::new(field) }
     }
 }
 

@@ -33,7 +33,7 @@
 //! changed.horizon.steps = 0.0;
 //! let refused = Scenario::from_file(changed, file).unwrap_err();
 //! assert!(refused.to_string().ends_with(
-//!     "horizon.steps: 0 is not allowed: a whole number from 1 to 100000"
+//!     "horizon.steps: found 0, expected a whole number from 1 to 100000"
 //! ));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 use serde::Deserialize;
 
-use crate::error::Error;
+use crate::error::{Error, Mismatch};
 use crate::file::{self, ManeuverType, SystemReference};
-use crate::json::Document;
+use crate::json::{Document, FileKind};
 use crate::scenario::Scenario;
 use crate::solution::{SCHEMA, Status};
 use crate::trajectory::Trajectory;
@@ -159,11 +159,13 @@ impl Library {
 
 /// The resolved scenario of a verified plan, or why the folder holds none.
 fn read_scenario(folder: &Path) -> Result<file::Scenario, String> {
-    let document = Document::read(&folder.join(SOLUTION_FILE), "a solution file");
+    let document = Document::read(&folder.join(SOLUTION_FILE), FileKind::Solution);
     let card: Card =
         document.and_then(|document| document.decode()).map_err(|error| within(folder, &error))?;
     if card.schema != SCHEMA {
-        return Err(format!("{SOLUTION_FILE}: schema: \"{}\" is not \"{SCHEMA}\"", card.schema));
+        let quoted = [&card.schema, SCHEMA].map(|name| format!("\"{name}\""));
+        let mismatch = Mismatch::new(&quoted[0], &quoted[1]);
+        return Err(format!("{SOLUTION_FILE}: schema: {mismatch}"));
     }
     if !(card.status.is_acceptable() && card.verification.passed) {
         return Err("holds no verified plan".to_owned());
@@ -185,7 +187,8 @@ fn system(scenario: &file::Scenario) -> Option<&file::System> {
     }
 }
 
-fn is_same_arm(a: &file::Scenario, b: &file::Scenario) -> bool {
+/// Whether two resolved scenarios are of the same arm, as the [module](self) means it.
+pub fn is_same_arm(a: &file::Scenario, b: &file::Scenario) -> bool {
     let (Some(a), Some(b)) = (system(a), system(b)) else { return false };
     let row = |link: &file::Link| [link.a_m, link.alpha_deg, link.d_m, link.theta_deg];
     a.dh_convention == b.dh_convention

@@ -10,7 +10,7 @@ use crate::collision::CollisionModel;
 use crate::error::Error;
 use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, Optimizer, SystemReference};
 use crate::initial::Initial;
-use crate::json::{Bounds, Document, Number, Place, shown};
+use crate::json::{Bounds, Document, FileKind, Number, Place, shown};
 use crate::system_description::{SystemDescription, read_system};
 
 /// The most intervals a horizon may have.
@@ -116,7 +116,7 @@ impl Scenario {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let document = Document::read(file, "a scenario file")?;
+        let document = Document::read(file, FileKind::Scenario)?;
         Self::from_file(document.decode()?, file)
     }
 
@@ -126,7 +126,7 @@ impl Scenario {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        Self::from_file(Document::parse(file, text)?.decode()?, file)
+        Self::from_file(Document::parse(file, text, FileKind::Scenario)?.decode()?, file)
     }
 
     /// Checks a scenario; `file` names it in errors, and a relative system path starts from its
@@ -274,8 +274,11 @@ fn resolve_system(
             }
             let system_file: PathBuf = file.parent().unwrap_or(Path::new("")).join(&*path);
             let system = read_system(&system_file).map_err(|error| match error {
-                Error::Field { .. } | Error::NotJson { .. } => error,
-                unreadable => place.refuse(shown(&path.as_str().into()), unreadable.to_string()),
+                Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
+                unreadable => place.refuse(
+                    shown(&path.as_str().into()),
+                    format_args!("the path of a system file ({unreadable})"),
+                ),
             })?;
             let place = Place::root(&system_file);
             let description = SystemDescription::from_file(&system, &place)?;

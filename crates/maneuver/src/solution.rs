@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::Error;
-use crate::json::Document;
+use crate::json::{Document, FileKind};
 use crate::verification::Verification;
 use crate::{file, files};
 
@@ -226,7 +226,7 @@ impl Solution {
     /// # Errors
     /// Those of reading, and the JSON path of what is wrong in the file.
     pub fn read_json(file: &Path) -> Result<Self, Error> {
-        let document = Document::read(file, "a solution file")?;
+        let document = Document::read(file, FileKind::Solution)?;
         document.decode()
     }
 }

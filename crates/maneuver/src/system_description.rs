@@ -8,7 +8,7 @@ use righting_multibody::{ModelError, Part, Quaternion, System};
 
 use crate::error::Error;
 use crate::file;
-use crate::json::{Bounds, Document, Number, Place};
+use crate::json::{Bounds, Document, FileKind, Number, Place};
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
@@ -107,7 +107,7 @@ impl SystemDescription {
 
 /// Reads a system file without checking its values.
 pub(crate) fn read_system(file: &Path) -> Result<file::System, Error> {
-    Document::read(file, "a system file")?.decode()
+    Document::read(file, FileKind::System)?.decode()
 }
 
 /// A unit quaternion w, x, y, z, if it is one to within a millionth.
@@ -130,7 +130,7 @@ fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Erro
     match (base.cube_side_m, &base.inertia_kg_m2, base.keep_out_radius_m) {
         (Some(_), Some(_), _) => {
             let place = place.key("inertia_kg_m2");
-            Err(place.refuse("an inertia", "either cube_side_m or inertia_kg_m2, not both"))
+            Err(place.refuse("both cube_side_m and inertia_kg_m2", "one of them"))
         }
         (Some(side_m), None, radius_m) => {
             let side_m = cube_place.within(side_m, SIZE_M)?;
@@ -139,7 +139,7 @@ fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Erro
                 None => side_m * 3.0_f64.sqrt() / 2.0,
             };
             let body = multibody::Base::uniform_cube(mass_kg, side_m)
-                .map_err(|_| cube_place.refuse(Number(side_m), SIZE_M.to_string()))?;
+                .map_err(|_| cube_place.refuse(Number(side_m), SIZE_M))?;
             Ok((body, radius_m))
         }
         (None, Some(inertia), Some(radius_m)) => {
@@ -148,10 +148,11 @@ fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Erro
             Ok((multibody::Base { mass_kg, inertia_kg_m2 }, radius_m))
         }
         (None, Some(_), None) => {
-            Err(radius_place.missing("with inertia_kg_m2, the radius of the keep-out sphere"))
+            Err(radius_place
+                .missing("the radius of the keep-out sphere, as with any inertia_kg_m2"))
         }
         (None, None, _) => {
-            Err(cube_place.missing("cube_side_m, or inertia_kg_m2 with keep_out_radius_m,"))
+            Err(cube_place.missing("the side of a cube, or inertia_kg_m2 with keep_out_radius_m"))
         }
     }
 }
@@ -267,7 +268,7 @@ fn refuse_model(error: ModelError, place: &Place) -> Error {
             at(part).key(quantity).refuse(value, "a finite number")
         }
         ModelError::NegativeMass { part, mass_kg } => {
-            at(part).key("mass_kg").refuse(Number(mass_kg), MASS_KG.to_string())
+            at(part).key("mass_kg").refuse(Number(mass_kg), MASS_KG)
         }
         ModelError::Overflow { part } => {
             at(part).refuse("a mass or length this large", "numbers whose products are finite")
@@ -275,7 +276,7 @@ fn refuse_model(error: ModelError, place: &Place) -> Error {
         ModelError::EmptyChain => place.key("links").refuse("[]", "at least one link"),
         ModelError::MasslessBase => place.key("base").key("mass_kg").refuse(0, "more than 0"),
         ModelError::CubeSide { side_m } => {
-            place.key("base").key("cube_side_m").refuse(Number(side_m), SIZE_M.to_string())
+            place.key("base").key("cube_side_m").refuse(Number(side_m), SIZE_M)
         }
         ModelError::NotARotation { .. } => {
             place.key("mount").key("rotation").refuse("a reflection", "a unit quaternion")

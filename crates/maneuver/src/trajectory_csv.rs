@@ -1,11 +1,12 @@
 //! `trajectory.csv`: one row a node, 17 significant digits, read back bit for bit.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
 
-use crate::error::Error;
+use crate::error::{Error, Mismatch};
 use crate::files;
 use crate::trajectory::{Interval, Node, Trajectory};
 
@@ -86,21 +87,24 @@ impl Trajectory {
 
 /// Builds a trajectory from the rows of a table, the header first.
 fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
-    let wrong = |line: u64, problem: String| Error::Table { file: file.to_owned(), line, problem };
+    let wrong = |line: u64, found: &dyn fmt::Display, expected: &dyn fmt::Display| {
+        let problem = Mismatch::new(found, expected).to_string();
+        Error::Table { file: file.to_owned(), line, problem }
+    };
     let Some((head, body)) = rows.split_first() else {
-        return Err(wrong(1, "an empty file is not allowed: a header and rows are needed".into()));
+        return Err(wrong(1, &"an empty file", &"a header and rows"));
     };
     let joints = head.len().saturating_sub(BASE_COLUMNS.len() + 1) / 4;
     let names = header(joints);
     if joints == 0 || head.len() != names.len() {
-        let allowed = "14 columns, 4 for each joint and power_w";
-        return Err(wrong(1, format!("{} columns is not allowed: {allowed}", head.len())));
+        let expected = "14 columns, 4 for each joint and power_w";
+        return Err(wrong(1, &format_args!("{} columns", head.len()), &expected));
     }
-    if let Some((found, needed)) = head.iter().zip(&names).find(|(found, needed)| found != needed) {
-        return Err(wrong(1, format!("column `{found}` is not allowed: `{needed}` is needed")));
+    if let Some((found, name)) = head.iter().zip(&names).find(|(found, name)| found != name) {
+        return Err(wrong(1, &format_args!("column `{found}`"), &format_args!("`{name}`")));
     }
     if body.len() < 2 {
-        return Err(wrong(1, format!("{} rows is not allowed: at least 2", body.len())));
+        return Err(wrong(1, &format_args!("{} rows", body.len()), &"at least 2"));
     }
 
     let mut nodes = Vec::with_capacity(body.len());
@@ -108,8 +112,7 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
     for (k, record) in body.iter().enumerate() {
         let line = record.position().map_or(k as u64 + 2, csv::Position::line);
         if record.len() != names.len() {
-            let needed = names.len();
-            return Err(wrong(line, format!("{} cells is not allowed: {needed}", record.len())));
+            return Err(wrong(line, &format_args!("{} cells", record.len()), &names.len()));
         }
         let mut row = Row { file, line, names: &names, record, next: 0 };
         let last = k + 1 == body.len();
@@ -177,13 +180,12 @@ impl Row<'_> {
         Ok(())
     }
 
-    fn refuse(&self, allowed: &str) -> Error {
+    fn refuse(&self, expected: &str) -> Error {
         Error::Cell {
             file: self.file.to_owned(),
             line: self.line,
             column: self.names[self.next].clone(),
-            value: self.record[self.next].to_owned(),
-            allowed: allowed.to_owned(),
+            mismatch: Mismatch::new(format_args!("`{}`", &self.record[self.next]), expected),
         }
     }
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::envelope::fibonacci;
 use crate::error::Error;
 use crate::hull::{Mesh, convex_hull};
-use crate::json::{Bounds, Document, Place};
+use crate::json::{Bounds, Document, FileKind, Place};
 
 /// The most wheels an array may have.
 pub const MAX_WHEELS: usize = 16;
@@ -115,7 +115,7 @@ impl WheelArray {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let rows: WheelFile = Document::read(file, "a file of wheels")?.decode()?;
+        let rows: WheelFile = Document::read(file, FileKind::Wheels)?.decode()?;
         let place = Place::root(file).key("wheels");
         if !(1..=MAX_WHEELS).contains(&rows.wheels.len()) {
             let allowed = format!("an array of 1 to {MAX_WHEELS} wheels");
@@ -126,7 +126,8 @@ impl WheelArray {
             let axis_place = place.key("axis");
             axis_place.all_within(row.axis, AXIS)?;
             let axis = Vector3::from(row.axis).try_normalize(1e-9);
-            let axis = axis.ok_or_else(|| axis_place.refuse("[0, 0, 0]", "a vector not zero"))?;
+            let axis =
+                axis.ok_or_else(|| axis_place.refuse("[0, 0, 0]", "a vector that is not zero"))?;
             let limit = |name: &str, value| place.key(name).within(value, LIMIT);
             Ok(Wheel {
                 axis: axis.into(),

@@ -1,5 +1,5 @@
 //! Whatever is wrong with a scenario, the message is one line that names the file, the field by its
-//! JSON path, the value and what is allowed; and nothing panics.
+//! JSON path, what was found and what is expected; and nothing panics.
 
 mod support;
 
@@ -118,7 +118,7 @@ fn a_value_of_the_wrong_type_is_refused_wherever_it_stands() {
             let message = complaint(&text);
             let path = path_of(pointer);
             // An object of the wrong shape is refused for the field that it should not have.
-            let is_about = message.starts_with(&format!("{path}: {new} is not allowed: "))
+            let is_about = message.starts_with(&format!("{path}: found {new}, expected "))
                 || new.is_object() && message.starts_with(&format!("{path}.seven: unknown field"));
             assert!(is_about, "{pointer} = {new}: {message}");
             refused += 1;
@@ -193,7 +193,7 @@ fn an_unknown_field_is_named_with_the_nearest_one() {
         assert_complains(&text, &path_of(pointer), &format!("did you mean `{nearest}`?"));
     }
     let text = with("/horizon/qqq", json!(1)).to_string();
-    assert_complains(&text, "horizon.qqq", "the fields here are duration_s, steps");
+    assert_complains(&text, "horizon.qqq", "unknown field, expected one of duration_s, steps");
 }
 
 #[test]
@@ -201,22 +201,22 @@ fn a_value_out_of_range_is_refused_with_the_range() {
     for (pointer, value, keyword) in [
         ("/name", json!(""), "a name"),
         ("/name", json!("  "), "a name"),
-        ("/horizon/steps", json!(0), "0 is not allowed: a whole number from 1 to 100000"),
-        ("/horizon/steps", json!(-5), "-5 is not allowed: a whole number from 1"),
-        ("/horizon/steps", json!(2.5), "2.5 is not allowed: a whole number"),
-        ("/horizon/steps", json!(1_000_000_000), "1e9 is not allowed: a whole number from 1 to"),
+        ("/horizon/steps", json!(0), "found 0, expected a whole number from 1 to 100000"),
+        ("/horizon/steps", json!(-5), "found -5, expected a whole number from 1"),
+        ("/horizon/steps", json!(2.5), "found 2.5, expected a whole number"),
+        ("/horizon/steps", json!(1_000_000_000), "found 1e9, expected a whole number from 1 to"),
         ("/horizon/duration_s", json!(0), "above 0"),
         ("/horizon/duration_s", json!(-30.0), "above 0"),
-        ("/horizon/duration_s", json!(1e308), "1e308 is not allowed: a number above 0 and up to"),
+        ("/horizon/duration_s", json!(1e308), "found 1e308, expected a number above 0 and up to"),
         ("/maneuver/axis", json!([0, 0, 0]), "a vector that is not zero"),
         ("/maneuver/axis", json!([1, 0]), "an array of 3"),
         ("/maneuver/axis", json!([1, 0, 0, 0]), "an array of 3"),
-        ("/maneuver/axis/1", json!(1e308), "1e308 is not allowed"),
+        ("/maneuver/axis/1", json!(1e308), "found 1e308, expected"),
         ("/maneuver/angle_deg", json!(181), "from -180 to 180"),
         ("/maneuver/type", json!("slue"), "did you mean \"slew\"?"),
         ("/maneuver/type", json!("spin"), "\"slew\" or \"detumble\""),
-        ("/weights/control", json!(-0.01), "-0.01 is not allowed: a number from 0"),
-        ("/weights/attitude", json!(1e308), "1e308 is not allowed"),
+        ("/weights/control", json!(-0.01), "found -0.01, expected a number from 0"),
+        ("/weights/attitude", json!(1e308), "found 1e308, expected"),
         ("/weights/position", json!(-1), "a number from 0"),
         ("/weights/velocity", json!(-1), "a number from 0"),
         ("/weights/angular_rate", json!(-1), "a number from 0"),
@@ -235,34 +235,34 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/initial/joint_angles_deg", json!([0, 0, 0, 0, 0]), "an array of 4, one a joint"),
         ("/initial/joint_angles_deg/1", json!(91), "-90 to 90, the limits of joint 2"),
         ("/initial/joint_angles_deg/2", json!(-50.001), "-50 to 50, the limits of joint 3"),
-        ("/initial/joint_angles_deg/0", json!(1e308), "1e308 is not allowed"),
+        ("/initial/joint_angles_deg/0", json!(1e308), "found 1e308, expected"),
         ("/initial/joint_rates_deg_s", json!([0]), "an array of 4, one a joint"),
         ("/initial/angular_rate_deg_s", json!([0, 0]), "an array of 3"),
-        ("/initial/angular_rate_deg_s/2", json!(1e308), "1e308 is not allowed"),
+        ("/initial/angular_rate_deg_s/2", json!(1e308), "found 1e308, expected"),
         ("/initial/angular_rate_deg_s", json!([0, 0, 1]), "a slew ends at rest"),
         ("/initial/attitude", json!([1, 0, 0]), "an array of 4"),
         ("/initial/attitude", json!([1, 1, 0, 0]), "a unit quaternion w, x, y, z"),
         ("/initial/attitude", json!([0, 0, 0, 0]), "a unit quaternion w, x, y, z"),
         ("/system/name", json!(""), "a name"),
         ("/system/base/mass_kg", json!(0), "above 0"),
-        ("/system/base/mass_kg", json!(-300), "-300 is not allowed: a number above 0"),
-        ("/system/base/mass_kg", json!(1e308), "1e308 is not allowed"),
+        ("/system/base/mass_kg", json!(-300), "found -300, expected a number above 0"),
+        ("/system/base/mass_kg", json!(1e308), "found 1e308, expected"),
         ("/system/base/cube_side_m", json!(0), "above 0"),
         ("/system/base/cube_side_m", json!(-0.5), "above 0"),
         ("/system/base/keep_out_radius_m", json!(-1), "a number from 0"),
-        ("/system/mount/position_m/2", json!(1e308), "1e308 is not allowed"),
+        ("/system/mount/position_m/2", json!(1e308), "found 1e308, expected"),
         ("/system/mount/rotation", json!([1, 0, 0, 1]), "a unit quaternion w, x, y, z"),
         ("/system/dh_convention", json!("craig"), "\"standard\" or \"modified\""),
         ("/system/links", json!([]), "1 to 32 links"),
-        ("/system/links/3/mass_kg", json!(-6), "-6 is not allowed: a number from 0"),
-        ("/system/links/3/mass_kg", json!(1e308), "1e308 is not allowed"),
-        ("/system/links/3/a_m", json!(1e308), "1e308 is not allowed"),
+        ("/system/links/3/mass_kg", json!(-6), "found -6, expected a number from 0"),
+        ("/system/links/3/mass_kg", json!(1e308), "found 1e308, expected"),
+        ("/system/links/3/a_m", json!(1e308), "found 1e308, expected"),
         ("/system/links/3/alpha_deg", json!(361), "from -360 to 360"),
-        ("/system/links/3/d_m", json!(-1e308), "-1e308 is not allowed"),
+        ("/system/links/3/d_m", json!(-1e308), "found -1e308, expected"),
         ("/system/links/3/theta_deg", json!(1e9), "from -360 to 360"),
         ("/system/links/3/angle_min_deg", json!(35), "less than angle_max_deg, 35"),
         ("/system/links/3/angle_min_deg", json!(90), "less than angle_max_deg, 35"),
-        ("/system/links/3/angle_max_deg", json!(1e308), "1e308 is not allowed"),
+        ("/system/links/3/angle_max_deg", json!(1e308), "found 1e308, expected"),
         ("/system/links/3/rate_max_deg_s", json!(0), "above 0"),
         ("/system/links/3/rate_max_deg_s", json!(-17.2), "above 0"),
         ("/system/links/3/acceleration_max_deg_s2", json!(0), "above 0"),
@@ -302,7 +302,7 @@ fn fields_that_contradict_each_other_are_refused() {
                 ("/initial", json!({ "joint_angles_deg": [0, 0, 0, 0] })),
             ],
             "initial.angular_rate_deg_s",
-            "missing: the angular rate to take out",
+            "missing, expected the angular rate to take out",
         ),
         (
             vec![("/initial/joint_rates_deg_s", json!([0, 0, 18, 0]))],
@@ -317,7 +317,7 @@ fn fields_that_contradict_each_other_are_refused() {
         (
             vec![("/system/base/inertia_kg_m2", identity.clone())],
             "system.base.inertia_kg_m2",
-            "either cube_side_m or inertia_kg_m2",
+            "found both cube_side_m and inertia_kg_m2, expected one of them",
         ),
         (
             vec![("/system/base", json!({ "mass_kg": 300, "inertia_kg_m2": identity }))],
@@ -385,7 +385,7 @@ fn fields_that_contradict_each_other_are_refused() {
                 ("/system/base/keep_out_radius_m", json!(0.2)),
             ],
             "initial.joint_angles_deg",
-            "links 1 and 3 0.2500 m apart is not allowed: at least the clearance, 0.26 m",
+            "found a start with links 1 and 3 0.2500 m apart, expected at least the clearance, 0.26 m",
         ),
         (vec![("/solver/guess", json!({ "starts": 0 }))], "solver.guess.starts", "from 1 to 1000"),
         (vec![("/solver/guess", json!({ "starts": -1 }))], "solver.guess.starts", "a whole number"),
@@ -397,7 +397,7 @@ fn fields_that_contradict_each_other_are_refused() {
         ),
         (vec![("/system", json!(""))], "system", "the path of a system file"),
         (vec![("/system", json!("none.json"))], "system", "no such file"),
-        (vec![("/system", json!("/"))], "system", "is a directory"),
+        (vec![("/system", json!("/"))], "system", "(/: found a directory, expected a system file)"),
     ];
     for (changes, path, keyword) in cases {
         let mut scenario = good();
@@ -454,7 +454,7 @@ fn files_that_are_not_files_are_refused() {
         message.strip_prefix(&place).expect("the message starts with the file").to_owned()
     };
     assert_eq!(message(&folder.path().join("none.json")), "cannot be read: no such file");
-    assert_eq!(message(folder.path()), "is a directory: a scenario file is needed");
+    assert_eq!(message(folder.path()), "found a directory, expected a scenario file");
 
     let binary = folder.path().join("binary.json");
     fs::write(&binary, [0xff, 0xfe, 0x00, 0x80]).unwrap();
@@ -462,7 +462,7 @@ fn files_that_are_not_files_are_refused() {
 
     let huge = folder.path().join("huge.json");
     fs::File::create(&huge).unwrap().set_len(65 << 20).unwrap();
-    assert_eq!(message(&huge), "68157440 bytes is not allowed: at most 67108864 bytes");
+    assert_eq!(message(&huge), "found 68157440 bytes, expected at most 67108864");
 }
 
 #[test]
@@ -482,14 +482,16 @@ fn a_fault_in_a_system_file_names_that_file() {
     system["links"][3]["mass_kg"] = json!(-6);
     write(&system);
     let message = Scenario::read(&scenario_file).unwrap_err().to_string();
-    let place = format!("{}: links[3].mass_kg: -6 is not allowed", system_file.display());
+    let place =
+        format!("{}: links[3].mass_kg: found -6, expected a number from 0", system_file.display());
     assert!(message.starts_with(&place), "{message}");
 
     system["links"][3]["mass_kg"] = json!(6);
     system["links"][2]["body_exempt"] = json!(true);
     write(&system);
     let message = Scenario::read(&scenario_file).unwrap_err().to_string();
-    let place = format!("{}: links[2].body_exempt: true is not", system_file.display());
+    let place =
+        format!("{}: links[2].body_exempt: found true, expected false", system_file.display());
     assert!(message.starts_with(&place), "{message}");
 
     fs::write(&system_file, "{ \"name\": ").unwrap();

@@ -142,8 +142,8 @@ fn what_braking_gives_back_orders_the_variants() {
 fn a_trajectory_of_another_scenario_is_refused() {
     let (scenario, trajectory) = moved("slew_4dof", 6.0, 30);
     let other = PowerProfile::new(&shipped("slew_2dof"), &trajectory).unwrap_err();
-    assert_eq!(other.to_string(), "joints: 4 is not allowed: 2");
+    assert_eq!(other.to_string(), "joints: found 4, expected 2");
     let finer = varied(&scenario, |file| file.horizon.steps = 60.0);
     let other = PowerProfile::new(&finer, &trajectory).unwrap_err();
-    assert_eq!(other.to_string(), "steps: 30 is not allowed: 60");
+    assert_eq!(other.to_string(), "steps: found 30, expected 60");
 }

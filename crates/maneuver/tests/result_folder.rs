@@ -99,12 +99,20 @@ fn a_folder_that_cannot_be_read_is_an_error_that_says_where() {
     assert!(complaint(empty.path()).ends_with("solution.json: cannot be read: no such file"));
 
     for (pointer, value, place) in [
-        ("/schema", json!("righting.solution/2"), "schema: \"righting.solution/2\" is not"),
-        ("/status", json!("done"), "status: \"done\" is not allowed: \"solved\" or"),
-        ("/iterations", json!(-1), "iterations: -1 is not allowed: a whole number"),
-        ("/terminal/attitude_error", json!("0"), "terminal.attitude_error: \"0\" is not allowed"),
-        ("/scenario/horizon/steps", json!(0), "scenario.horizon.steps: 0 is not allowed"),
-        ("/scenario/system/links/2/mass_kg", json!(-1), "scenario.system.links[2].mass_kg: -1"),
+        (
+            "/schema",
+            json!("righting.solution/2"),
+            "schema: found \"righting.solution/2\", expected",
+        ),
+        ("/status", json!("done"), "status: found \"done\", expected \"solved\" or"),
+        ("/iterations", json!(-1), "iterations: found -1, expected a whole number"),
+        ("/terminal/attitude_error", json!("0"), "terminal.attitude_error: found \"0\", expected"),
+        ("/scenario/horizon/steps", json!(0), "scenario.horizon.steps: found 0, expected"),
+        (
+            "/scenario/system/links/2/mass_kg",
+            json!(-1),
+            "scenario.system.links[2].mass_kg: found -1, expected",
+        ),
     ] {
         let folder = folder();
         edit(folder.path(), pointer, value);

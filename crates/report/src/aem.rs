@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use jiff::SignedDuration;
 use jiff::civil::DateTime;
+use righting_maneuver::error::Mismatch;
 use righting_maneuver::{Node, Solution, Trajectory};
 
 use crate::ReportError;
@@ -133,8 +134,9 @@ fn value(keyword: &'static str, value: &str) -> Result<String, ReportError> {
     let trimmed = value.trim();
     let is_plain = trimmed.chars().all(|c| c == ' ' || c.is_ascii_graphic());
     if trimmed.is_empty() || trimmed.len() > LONGEST_VALUE || !is_plain {
-        let allowed = "1 to 200 printable ASCII characters";
-        return Err(ReportError::Value { keyword, value: value.to_owned(), allowed });
+        let expected = "1 to 200 printable ASCII characters";
+        let mismatch = Mismatch::new(format_args!("{value:?}"), expected);
+        return Err(ReportError::Value { keyword, mismatch });
     }
     Ok(trimmed.to_ascii_uppercase())
 }

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use righting_maneuver::files;
-use righting_maneuver::json::{Document, Place};
+use righting_maneuver::json::{Document, FileKind, Place};
 use serde::{Deserialize, Serialize};
 
 use crate::case::CaseId;
@@ -81,7 +81,7 @@ impl SweepFolder {
     /// [`SweepError::Input`] if there is none or it is damaged.
     pub fn sweep(&self) -> Result<Sweep, SweepError> {
         let path = self.path.join(MANIFEST);
-        let document = Document::read(&path, "a planned sweep")?;
+        let document = Document::read(&path, FileKind::PlannedSweep)?;
         let manifest: Manifest = document.decode()?;
         let place = Place::root(&path);
         if manifest.schema != SCHEMA {

@@ -58,10 +58,10 @@ impl Settings {
             directions.is_some(),
         ];
         match given.into_iter().filter(|&given| given).count() {
-            0 => return Err(place.missing(format!("one of {RULES}"))),
             1 => {}
-            several => {
-                return Err(place.refuse(format!("{several} of them"), format!("one of {RULES}")));
+            count => {
+                let found = if count == 0 { "none".to_owned() } else { format!("{count} of them") };
+                return Err(place.refuse(found, format!("one of {RULES}")));
             }
         }
         let draws = |seed: u64| Draws::new(seed, field);
@@ -77,7 +77,7 @@ impl Settings {
             let low = place.key("low").within(uniform.low, FINITE)?;
             let high = place.key("high").within(uniform.high, FINITE)?;
             if low >= high {
-                return Err(place.key("high").refuse(high, format!("a number above {low}")));
+                return Err(place.key("high").refuse(high, format_args!("a number above {low}")));
             }
             let count = count_of(uniform.count, MOST_DRAWN, &place.key("count"))?;
             Ok(Self::Uniform { low, high, count, draws: draws(uniform.seed) })
@@ -151,11 +151,15 @@ fn count_of(count: u64, most: f64, place: &Place) -> Result<usize, Error> {
 }
 
 fn listed(values: &[Value], place: &Place) -> Result<Settings, Error> {
-    count_of(values.len() as u64, MOST_LISTED, place)?;
+    if !(1..=MOST_LISTED as usize).contains(&values.len()) {
+        let expected = format!("1 to {MOST_LISTED}");
+        return Err(place.refuse(format!("{} values", values.len()), expected));
+    }
     let mut seen = HashSet::new();
     for (index, value) in values.iter().enumerate() {
         if !seen.insert(value.to_string()) {
-            return Err(place.index(index).refuse(shown(value), "each value once"));
+            let again = format!("{} again", shown(value));
+            return Err(place.index(index).refuse(again, "each value once"));
         }
     }
     Ok(Settings::Listed(values.to_vec()))

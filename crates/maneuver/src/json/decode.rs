@@ -11,7 +11,7 @@ use serde::forward_to_deserialize_any;
 use serde_json::{Map, Value};
 
 use super::{nearest, shown, shown_key};
-use crate::error::{FieldError, FieldProblem};
+use crate::error::{FieldError, FieldProblem, Mismatch};
 
 /// Reads a tree as a `T`.
 pub(super) fn decode<'a, T: Deserialize<'a>>(root: &'a Value) -> Result<T, FieldError> {
@@ -41,19 +41,18 @@ impl DecodeError {
 
     /// Fills in the value if the error was raised about it just now.
     fn about(mut self, node: &Value) -> Self {
-        if let FieldProblem::NotAllowed { value, .. } = &mut self.problem
-            && value.is_empty()
+        if let FieldProblem::Mismatch(Mismatch { found, .. }) = &mut self.problem
+            && found.is_empty()
         {
-            *value = shown(node);
+            *found = shown(node);
         }
         self
     }
 
-    fn not_allowed(allowed: String) -> Self {
-        Self {
-            steps: Vec::new(),
-            problem: FieldProblem::NotAllowed { value: String::new(), allowed },
-        }
+    /// What stands there is filled in by [`about`](Self::about).
+    fn expected(expected: impl Display) -> Self {
+        let problem = FieldProblem::Mismatch(Mismatch::new("", expected));
+        Self { steps: Vec::new(), problem }
     }
 
     fn into_field_error(self) -> FieldError {
@@ -79,27 +78,27 @@ impl std::error::Error for DecodeError {}
 
 impl de::Error for DecodeError {
     fn custom<T: Display>(message: T) -> Self {
-        Self::not_allowed(message.to_string())
+        Self::expected(message)
     }
 
     fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::not_allowed(phrase(&expected.to_string()))
+        Self::expected(phrase(&expected.to_string()))
     }
 
     fn invalid_value(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::not_allowed(phrase(&expected.to_string()))
+        Self::expected(phrase(&expected.to_string()))
     }
 
     fn invalid_length(_: usize, expected: &dyn Expected) -> Self {
-        Self::not_allowed(phrase(&expected.to_string()))
+        Self::expected(phrase(&expected.to_string()))
     }
 
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
-        let mut allowed = alternatives(expected);
+        let mut named = alternatives(expected);
         if let Some(nearest) = nearest(variant, expected) {
-            allowed.push_str(&format!("; did you mean \"{nearest}\"?"));
+            named.push_str(&format!("; did you mean \"{nearest}\"?"));
         }
-        Self::not_allowed(allowed)
+        Self::expected(named)
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
@@ -111,7 +110,7 @@ impl de::Error for DecodeError {
     }
 
     fn missing_field(field: &'static str) -> Self {
-        let problem = FieldProblem::Missing { allowed: String::new() };
+        let problem = FieldProblem::Missing { expected: String::new() };
         Self { steps: vec![Step::Key(field.to_owned())], problem }
     }
 
@@ -150,7 +149,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
                 (Some(value), ..) => visitor.visit_u64(value),
                 (None, Some(value), _) => visitor.visit_i64(value),
                 (None, None, Some(value)) => visitor.visit_f64(value),
-                (None, None, None) => Err(DecodeError::not_allowed("a number".to_owned())),
+                (None, None, None) => Err(DecodeError::expected("a number")),
             },
             Value::String(text) => visitor.visit_borrowed_str(text),
             Value::Array(elements) => visitor.visit_seq(Elements { elements, next: 0 }),
@@ -173,7 +172,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
     ) -> Result<V::Value, DecodeError> {
         match self.0 {
             Value::Array(elements) if elements.len() == len => self.deserialize_any(visitor),
-            _ => Err(DecodeError::not_allowed(format!("an array of {len}")).about(self.0)),
+            _ => Err(DecodeError::expected(format_args!("an array of {len}")).about(self.0)),
         }
     }
 
@@ -202,7 +201,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
                 let name: StrDeserializer<'_, DecodeError> = name.as_str().into_deserializer();
                 visitor.visit_enum(name)
             }
-            _ => Err(DecodeError::not_allowed(alternatives(variants))),
+            _ => Err(DecodeError::expected(alternatives(variants))),
         };
         result.map_err(|error| error.about(self.0))
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, FieldError, FieldProblem};
+use crate::error::{Error, FieldError, FieldProblem, Mismatch};
 
 /// A field of a file, to complain about.
 #[derive(Clone, Debug)]
@@ -29,14 +29,19 @@ impl Place {
         Self { file: self.file.clone(), path: format!("{}[{index}]", self.path) }
     }
 
-    /// The value here is not allowed.
-    pub fn refuse(&self, value: impl fmt::Display, allowed: impl Into<String>) -> Error {
-        self.error(FieldProblem::NotAllowed { value: value.to_string(), allowed: allowed.into() })
+    /// What is here is not what is expected.
+    pub fn refuse(&self, found: impl fmt::Display, expected: impl fmt::Display) -> Error {
+        self.error(FieldProblem::Mismatch(Mismatch::new(found, expected)))
     }
 
-    /// Nothing is here, but something is needed.
-    pub fn missing(&self, allowed: impl Into<String>) -> Error {
-        self.error(FieldProblem::Missing { allowed: allowed.into() })
+    /// Nothing is here, but something is expected.
+    pub fn missing(&self, expected: impl Into<String>) -> Error {
+        self.error(FieldProblem::Missing { expected: expected.into() })
+    }
+
+    /// What is here leads to a problem elsewhere: at `field`.
+    pub fn because(&self, field: impl fmt::Display, problem: FieldProblem) -> Error {
+        Self { path: format!("{}: {field}", self.path), ..self.clone() }.error(problem)
     }
 
     /// The number, if it is within bounds.
@@ -44,11 +49,7 @@ impl Place {
     /// # Errors
     /// [`Error::Field`] otherwise.
     pub fn within(&self, value: f64, bounds: Bounds) -> Result<f64, Error> {
-        if bounds.contain(value) {
-            Ok(value)
-        } else {
-            Err(self.refuse(Number(value), bounds.to_string()))
-        }
+        if bounds.contain(value) { Ok(value) } else { Err(self.refuse(Number(value), bounds)) }
     }
 
     /// Every number, if all are within bounds.
@@ -134,7 +135,7 @@ mod tests {
         let error = place.within(-1.0, Bounds::Between(0.0, 1e9)).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "arm.json: links[3].mass_kg: -1 is not allowed: a number from 0 to 1e9"
+            "arm.json: links[3].mass_kg: found -1, expected a number from 0 to 1e9"
         );
         assert!(place.within(f64::NAN, Bounds::Above(0.0, 1.0)).is_err());
         assert!(place.within(0.0, Bounds::Above(0.0, 1.0)).is_err());

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::columns::{Columns, stride};
 use crate::asked;
-use crate::numbers::{Fact, UsedLimit, facts, used_limits};
+use crate::facts::{Fact, UsedLimit, facts, used_limits};
 use crate::summary::{check_rows, verdict};
 
 #[derive(Debug, Serialize)]

@@ -11,7 +11,7 @@ const MOST_STEPS: usize = 2000;
 
 /// The figure of the attitude errors at the end of plans flown open loop, as an SVG document: the share
 /// of flights (percent) that end within an angle. `errors_deg` in any order. None if there are none.
-pub fn errors_svg(name: &str, errors_deg: &[f64]) -> Option<String> {
+pub fn open_loop_errors_svg(name: &str, errors_deg: &[f64]) -> Option<String> {
     let mut errors: Vec<f64> = errors_deg.iter().copied().filter(|e| e.is_finite()).collect();
     errors.sort_by(f64::total_cmp);
     let last = *errors.last()?;
