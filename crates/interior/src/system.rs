@@ -1,7 +1,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use righting_ipopt::{
+use righting_nlp::{
     Declarations, Factorization, LinearSolver, LinearSolverTiming, Options, Problem,
 };
 

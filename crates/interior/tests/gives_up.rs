@@ -8,7 +8,7 @@ use common::{fast, own};
 use righting_interior::GivesUp;
 use righting_ipopt::*;
 
-fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<Solution, GivesUp> {
+fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<NlpSolution, GivesUp> {
     own(problem, options, &Start::at(x.to_vec())).1.map(|solved| solved.solution)
 }
 

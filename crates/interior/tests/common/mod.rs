@@ -20,7 +20,7 @@ pub fn ipopt(
     mut problem: impl Problem,
     options: &Options,
     start: &Start,
-) -> Run<Solution, SolveError> {
+) -> Run<NlpSolution, SolveError> {
     let mut iterations = Vec::new();
     let mut solver = BunchKaufman::default();
     let outcome = solve_with(&mut problem, options, start, &mut solver, |iteration| {

@@ -1,0 +1,212 @@
+//! What is refused before an optimizer sees it, and what is said then.
+
+use righting_nlp::*;
+
+const INF: f64 = f64::INFINITY;
+
+/// Declares what it is told to, and is defined nowhere.
+#[derive(Clone, Default)]
+struct Declared {
+    x_bounds: Vec<(f64, f64)>,
+    g_bounds: Vec<(f64, f64)>,
+    jacobian: TripletStructure,
+    hessian: TripletStructure,
+    scaling: Option<Scaling>,
+}
+
+impl Declared {
+    /// Two variables without bounds and one constraint on the second.
+    fn constrained() -> Self {
+        Self {
+            x_bounds: vec![(-INF, INF); 2],
+            g_bounds: vec![(0.0, 1.0)],
+            jacobian: triplets(&[(0, 1)]),
+            hessian: triplets(&[(0, 0), (1, 1)]),
+            scaling: None,
+        }
+    }
+}
+
+impl Problem for Declared {
+    fn dimensions(&self) -> Dimensions {
+        Dimensions { variables: self.x_bounds.len(), constraints: self.g_bounds.len() }
+    }
+    fn bounds(&self, bounds: &mut Bounds) {
+        for (i, (lower, upper)) in self.x_bounds.iter().enumerate() {
+            (bounds.x_lower[i], bounds.x_upper[i]) = (*lower, *upper);
+        }
+        for (i, (lower, upper)) in self.g_bounds.iter().enumerate() {
+            (bounds.g_lower[i], bounds.g_upper[i]) = (*lower, *upper);
+        }
+    }
+    fn jacobian_structure(&self) -> TripletStructure {
+        self.jacobian.clone()
+    }
+    fn hessian_structure(&self) -> TripletStructure {
+        self.hessian.clone()
+    }
+    fn objective(&mut self, _: &[f64], _: bool) -> Result<f64, EvaluationError> {
+        Err(EvaluationError)
+    }
+    fn gradient(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
+        Err(EvaluationError)
+    }
+    fn constraints(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
+        Err(EvaluationError)
+    }
+    fn jacobian(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
+        Err(EvaluationError)
+    }
+    fn hessian(
+        &mut self,
+        _: &[f64],
+        _: bool,
+        _: f64,
+        _: &[f64],
+        _: bool,
+        _: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        Err(EvaluationError)
+    }
+    fn scaling(&self) -> Option<Scaling> {
+        self.scaling.clone()
+    }
+}
+
+fn triplets(entries: &[(i32, i32)]) -> TripletStructure {
+    let (rows, columns) = entries.iter().copied().unzip();
+    TripletStructure { rows, columns }
+}
+
+fn error(problem: &Declared) -> String {
+    Declarations::of(problem).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_well_declared_is_taken_as_it_is() {
+    let declared = Declarations::of(&Declared::constrained()).unwrap();
+    assert_eq!((declared.variables, declared.constraints), (2, 1));
+    assert_eq!((declared.x_lower, declared.g_upper), (vec![-INF; 2], vec![1.0]));
+    assert_eq!((declared.jacobian.rows, declared.jacobian.columns), (vec![0], vec![1]));
+    assert_eq!(declared.hessian.len(), 2);
+}
+
+#[test]
+fn no_variables() {
+    assert_eq!(error(&Declared::default()), "the problem has no variables");
+}
+
+#[test]
+fn a_structure_outside_of_its_matrix() {
+    let problem = Declared { jacobian: triplets(&[(0, 2)]), ..Declared::constrained() };
+    assert_eq!(
+        error(&problem),
+        "entry 0 of the Jacobian structure, at (0, 2), is outside of the 1 × 2 matrix"
+    );
+    let problem = Declared { jacobian: triplets(&[(-1, 1)]), ..Declared::constrained() };
+    assert!(error(&problem).contains("(-1, 1)"));
+    let problem = Declared { g_bounds: vec![], ..Declared::constrained() };
+    assert!(error(&problem).contains("outside of the 0 × 2 matrix"));
+    let problem = Declared { hessian: triplets(&[(0, 0), (2, 1)]), ..Declared::constrained() };
+    assert_eq!(
+        error(&problem),
+        "entry 1 of the Hessian structure, at (2, 1), is outside of the 2 × 2 matrix"
+    );
+}
+
+#[test]
+fn a_structure_of_two_lengths() {
+    let mut problem = Declared::constrained();
+    problem.hessian.columns.pop();
+    assert_eq!(error(&problem), "the Hessian structure has 2 row indices but 1 column indices");
+}
+
+#[test]
+fn an_entry_in_the_upper_triangle() {
+    let problem = Declared { hessian: triplets(&[(0, 0), (0, 1)]), ..Declared::constrained() };
+    assert_eq!(
+        error(&problem),
+        "entry 1 of the Hessian structure, at (0, 1), is in the upper triangle"
+    );
+}
+
+#[test]
+fn bounds_that_nothing_lies_between() {
+    let variable = |lower, upper| {
+        error(&Declared { x_bounds: vec![(lower, upper); 2], ..Declared::constrained() })
+    };
+    assert_eq!(variable(1.0, -1.0), "variable 0 cannot lie between 1 and -1");
+    assert_eq!(variable(f64::NAN, 1.0), "variable 0 cannot lie between NaN and 1");
+    assert_eq!(variable(0.0, f64::NAN), "variable 0 cannot lie between 0 and NaN");
+    assert_eq!(variable(INF, INF), "variable 0 cannot lie between inf and inf");
+    assert_eq!(variable(-INF, -INF), "variable 0 cannot lie between -inf and -inf");
+    let problem = Declared { g_bounds: vec![(0.0, 1.0), (3.0, 2.0)], ..Declared::constrained() };
+    assert_eq!(error(&problem), "constraint 1 cannot lie between 3 and 2");
+}
+
+#[test]
+fn scaling_that_does_not_fit() {
+    let message = |scaling| error(&Declared { scaling: Some(scaling), ..Declared::constrained() });
+    assert_eq!(
+        message(Scaling { objective: 0.0, x: None, g: None }),
+        "entry 0 of the objective scaling is 0; a finite number other than zero is allowed"
+    );
+    assert_eq!(
+        message(Scaling { objective: 1.0, x: Some(vec![1.0, -1.0]), g: None }),
+        "entry 1 of the variable scaling is -1; a finite positive number is allowed"
+    );
+    assert_eq!(
+        message(Scaling { objective: 1.0, x: None, g: Some(vec![]) }),
+        "0 entries of the constraint scaling where the problem needs 1"
+    );
+}
+
+#[test]
+fn starts_that_do_not_fit() {
+    let declared = Declarations::of(&Declared::constrained()).unwrap();
+    let message = |start: Start| declared.check_start(&start).unwrap_err().to_string();
+    assert_eq!(
+        message(Start::at(vec![1.0; 3])),
+        "3 entries of the start where the problem needs 2"
+    );
+    assert_eq!(
+        message(Start::at(vec![1.0, f64::NAN])),
+        "entry 1 of the start is NaN; a finite number is allowed"
+    );
+    assert_eq!(
+        message(Start::at(vec![-INF, 1.0])),
+        "entry 0 of the start is -inf; a finite number is allowed"
+    );
+    let fitting =
+        || Multipliers { constraints: vec![0.0; 1], lower: vec![0.0; 2], upper: vec![0.0; 2] };
+    let warm = |multipliers| Start { x: vec![1.0; 2], multipliers: Some(multipliers) };
+    declared.check_start(&warm(fitting())).unwrap();
+    assert_eq!(
+        message(warm(Multipliers { constraints: vec![], ..fitting() })),
+        "0 entries of the constraint multipliers where the problem needs 1"
+    );
+    assert_eq!(
+        message(warm(Multipliers { upper: vec![INF; 2], ..fitting() })),
+        "entry 0 of the upper bound multipliers is inf; a finite number is allowed"
+    );
+}
+
+#[test]
+fn multipliers_follow_variables_and_slacks_with_the_equalities_first() {
+    let problem = Declared {
+        g_bounds: vec![(0.0, 1.0), (2.0, 2.0), (-INF, 3.0), (4.0, 4.0)],
+        ..Declared::constrained()
+    };
+    let declared = Declarations::of(&problem).unwrap();
+    assert_eq!(declared.inequalities().collect::<Vec<_>>(), [0, 2]);
+    assert_eq!(declared.multiplier_unknowns(), [6, 4, 7, 5]);
+}
+
+#[test]
+fn violations_are_the_largest_and_unknown_where_a_value_is() {
+    let problem = Declared { x_bounds: vec![(0.0, 1.0); 2], ..Declared::constrained() };
+    let declared = Declarations::of(&problem).unwrap();
+    assert_eq!(declared.violation(&[0.5, 1.5], &[-2.0]), 2.0);
+    assert_eq!(declared.violation(&[0.5, 1.0], &[1.0]), 0.0);
+    assert!(declared.violation(&[0.5, 1.0], &[f64::NAN]).is_nan());
+}
