@@ -32,9 +32,6 @@
 //!     fn bounds(&self, bounds: &mut Bounds) {
 //!         bounds.x_lower[0] = 0.0;
 //!     }
-//!     fn jacobian_structure(&self) -> TripletStructure {
-//!         TripletStructure::default()
-//!     }
 //!     fn hessian_structure(&self) -> TripletStructure {
 //!         TripletStructure { rows: vec![0, 1, 1], columns: vec![0, 0, 1] }
 //!     }
@@ -44,12 +41,6 @@
 //!     fn gradient(&mut self, x: &[f64], _: bool, out: &mut [f64]) -> Result<(), EvaluationError> {
 //!         let r = x[1] - x[0] * x[0];
 //!         out.copy_from_slice(&[2.0 * (x[0] - 1.0) - 400.0 * x[0] * r, 200.0 * r]);
-//!         Ok(())
-//!     }
-//!     fn constraints(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-//!         Ok(())
-//!     }
-//!     fn jacobian(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
 //!         Ok(())
 //!     }
 //!     fn hessian(

@@ -19,10 +19,16 @@ pub trait Problem {
 
     /// Writes the bounds. They come filled with −∞ and +∞: no bound. Equal bounds fix a variable or
     /// make an equality constraint. Anything beyond ±1e19 is read as no bound.
-    fn bounds(&self, bounds: &mut Bounds);
+    ///
+    /// Without this method nothing is bounded.
+    fn bounds(&self, _bounds: &mut Bounds) {}
 
     /// Where ∂g/∂x may be nonzero: m rows, n columns.
-    fn jacobian_structure(&self) -> TripletStructure;
+    ///
+    /// Without this method nowhere, as fits a problem without constraints.
+    fn jacobian_structure(&self) -> TripletStructure {
+        TripletStructure::default()
+    }
 
     /// Where the lower triangle of the Lagrangian's Hessian may be nonzero: n rows, n columns,
     /// row ≥ column.
@@ -40,16 +46,30 @@ pub trait Problem {
     ) -> Result<(), EvaluationError>;
 
     /// g(x).
-    fn constraints(&mut self, x: &[f64], new_x: bool, g: &mut [f64])
-    -> Result<(), EvaluationError>;
+    ///
+    /// A problem without constraints needs no such method; one with constraints is defined nowhere
+    /// without it.
+    fn constraints(
+        &mut self,
+        _x: &[f64],
+        _new_x: bool,
+        g: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        if g.is_empty() { Ok(()) } else { Err(EvaluationError) }
+    }
 
     /// ∂g/∂x.
+    ///
+    /// A problem without constraints needs no such method; one whose constraints have derivatives
+    /// is defined nowhere without it.
     fn jacobian(
         &mut self,
-        x: &[f64],
-        new_x: bool,
+        _x: &[f64],
+        _new_x: bool,
         values: &mut [f64],
-    ) -> Result<(), EvaluationError>;
+    ) -> Result<(), EvaluationError> {
+        if values.is_empty() { Ok(()) } else { Err(EvaluationError) }
+    }
 
     /// `objective_factor` ∇²f(x) + Σ `multipliers[i]` ∇²gᵢ(x).
     #[allow(clippy::too_many_arguments)]

@@ -51,12 +51,6 @@ impl Problem for Declared {
     fn gradient(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
         Err(EvaluationError)
     }
-    fn constraints(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-        Err(EvaluationError)
-    }
-    fn jacobian(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-        Err(EvaluationError)
-    }
     fn hessian(
         &mut self,
         _: &[f64],
@@ -189,6 +183,15 @@ fn starts_that_do_not_fit() {
         message(warm(Multipliers { upper: vec![INF; 2], ..fitting() })),
         "entry 0 of the upper bound multipliers is inf; a finite number is allowed"
     );
+}
+
+#[test]
+fn a_problem_with_constraints_is_defined_nowhere_without_their_methods() {
+    let mut problem = Declared::constrained();
+    assert_eq!(problem.constraints(&[0.0; 2], true, &mut [0.0]), Err(EvaluationError));
+    assert_eq!(problem.jacobian(&[0.0; 2], false, &mut [0.0]), Err(EvaluationError));
+    assert_eq!(problem.constraints(&[0.0; 2], true, &mut []), Ok(()));
+    assert_eq!(problem.jacobian(&[0.0; 2], false, &mut []), Ok(()));
 }
 
 #[test]
