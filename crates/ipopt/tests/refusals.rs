@@ -20,16 +20,16 @@ fn at(x: &[f64]) -> Start {
 
 #[test]
 fn declarations_options_and_starts_that_no_optimizer_can_use() {
-    assert_eq!(error(&mut Projection::of(&[]), at(&[])), "the problem has no variables");
     assert_eq!(
-        error(&mut Dense(Hs071), at(&[1.0; 3])),
-        "3 entries of the start where the problem needs 4"
+        error(&mut Projection::of(&[]), at(&[])),
+        "found no variables, expected at least one"
     );
+    assert_eq!(error(&mut Dense(Hs071), at(&[1.0; 3])), "start: found 3 entries, expected 4");
     let mut problem = Projection::of(&[0.0, 0.0]);
     problem.hessian.rows[1] = 2;
     assert_eq!(
         error(&mut problem, at(&[0.0; 2])),
-        "entry 1 of the Hessian structure, at (2, 1), is outside of the 2 × 2 matrix"
+        "Hessian structure, entry 1: found (2, 1), expected an entry of a 2 × 2 matrix"
     );
     let options = Options { tolerance: 0.0, ..Options::default() };
     let message = error_with(&mut Dense(Hs071), &options, at(Hs071::START));

@@ -186,31 +186,31 @@ fn check_factor(objective: f64) -> Result<(), NlpError> {
         vector: VectorName::ObjectiveScaling,
         index: 0,
         value: objective,
-        allowed: "a finite number other than zero",
+        expected: "a finite number other than zero",
     })
 }
 
-fn check_factors(vector: VectorName, values: &[f64], expected: usize) -> Result<(), NlpError> {
-    let allowed = "a finite positive number";
-    check_entries(vector, values, expected, allowed, |value| value.is_finite() && value > 0.0)
+fn check_factors(vector: VectorName, values: &[f64], length: usize) -> Result<(), NlpError> {
+    let expected = "a finite positive number";
+    check_entries(vector, values, length, expected, |value| value.is_finite() && value > 0.0)
 }
 
-fn check_finite(vector: VectorName, values: &[f64], expected: usize) -> Result<(), NlpError> {
-    check_entries(vector, values, expected, "a finite number", f64::is_finite)
+fn check_finite(vector: VectorName, values: &[f64], length: usize) -> Result<(), NlpError> {
+    check_entries(vector, values, length, "a finite number", f64::is_finite)
 }
 
 fn check_entries(
     vector: VectorName,
     values: &[f64],
-    expected: usize,
-    allowed: &'static str,
+    length: usize,
+    expected: &'static str,
     good: impl Fn(f64) -> bool,
 ) -> Result<(), NlpError> {
-    if values.len() != expected {
-        return Err(NlpError::WrongLength { vector, expected, found: values.len() });
+    if values.len() != length {
+        return Err(NlpError::WrongLength { vector, expected: length, found: values.len() });
     }
     match values.iter().position(|value| !good(*value)) {
-        Some(index) => Err(NlpError::BadNumber { vector, index, value: values[index], allowed }),
+        Some(index) => Err(NlpError::BadNumber { vector, index, value: values[index], expected }),
         None => Ok(()),
     }
 }

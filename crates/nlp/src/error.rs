@@ -9,10 +9,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum NlpError {
     /// There is nothing to solve for.
-    #[error("the problem has no variables")]
+    #[error("found no variables, expected at least one")]
     NoVariables,
     /// Optimizers and linear solvers count with 32 bits.
-    #[error("{count} {what} are more than 32 bits can count")]
+    #[error("found {count} {what}, expected at most {}", i32::MAX)]
     TooMany {
         /// What there are too many of.
         what: &'static str,
@@ -20,7 +20,9 @@ pub enum NlpError {
         count: usize,
     },
     /// A structure has not as many row as column indices.
-    #[error("the {matrix} structure has {rows} row indices but {columns} column indices")]
+    #[error(
+        "{matrix} structure: found {rows} row indices and {columns} column indices, expected as many"
+    )]
     UnevenStructure {
         /// Which matrix.
         matrix: MatrixName,
@@ -31,7 +33,7 @@ pub enum NlpError {
     },
     /// A structure has an entry outside of the matrix.
     #[error(
-        "entry {entry} of the {matrix} structure, at ({row}, {column}), is outside of the \
+        "{matrix} structure, entry {entry}: found ({row}, {column}), expected an entry of a \
          {height} × {width} matrix"
     )]
     EntryOutOfRange {
@@ -50,7 +52,7 @@ pub enum NlpError {
     },
     /// The Hessian is given by its lower triangle.
     #[error(
-        "entry {entry} of the Hessian structure, at ({row}, {column}), is in the upper triangle"
+        "Hessian structure, entry {entry}: found ({row}, {column}), expected the lower triangle"
     )]
     UpperTriangle {
         /// Number of the entry.
@@ -61,7 +63,9 @@ pub enum NlpError {
         column: i32,
     },
     /// A pair of bounds is NaN, the wrong way round, or an infinity on the wrong side.
-    #[error("{vector} {index} cannot lie between {lower} and {upper}")]
+    #[error(
+        "bounds of {vector} {index}: found [{lower}, {upper}], expected lower ≤ upper, and a finite number between them"
+    )]
     ImpossibleBounds {
         /// Variables or constraints.
         vector: VectorName,
@@ -73,7 +77,7 @@ pub enum NlpError {
         upper: f64,
     },
     /// A vector does not fit the problem.
-    #[error("{found} entries of the {vector} where the problem needs {expected}")]
+    #[error("{vector}: found {found} entries, expected {expected}")]
     WrongLength {
         /// Which vector.
         vector: VectorName,
@@ -82,8 +86,8 @@ pub enum NlpError {
         /// What was given.
         found: usize,
     },
-    /// A number is NaN, infinite, or outside of what its vector allows.
-    #[error("entry {index} of the {vector} is {value}; {allowed} is allowed")]
+    /// A number is NaN, infinite, or outside of what its vector may hold.
+    #[error("{vector}, entry {index}: found {value}, expected {expected}")]
     BadNumber {
         /// Which vector.
         vector: VectorName,
@@ -91,18 +95,18 @@ pub enum NlpError {
         index: usize,
         /// What was given.
         value: f64,
-        /// What is allowed.
-        allowed: &'static str,
+        /// What is expected.
+        expected: &'static str,
     },
     /// An option is out of its range.
-    #[error("option `{field}` is {value}; allowed is {allowed}")]
+    #[error("option `{field}`: found {value}, expected {expected}")]
     OptionOutOfRange {
         /// The field of [`Options`](crate::Options).
         field: &'static str,
         /// What was given.
         value: f64,
-        /// What is allowed.
-        allowed: String,
+        /// What is expected.
+        expected: String,
     },
 }
 

@@ -87,7 +87,7 @@ fn what_is_well_declared_is_taken_as_it_is() {
 
 #[test]
 fn no_variables() {
-    assert_eq!(error(&Declared::default()), "the problem has no variables");
+    assert_eq!(error(&Declared::default()), "found no variables, expected at least one");
 }
 
 #[test]
@@ -95,16 +95,16 @@ fn a_structure_outside_of_its_matrix() {
     let problem = Declared { jacobian: triplets(&[(0, 2)]), ..Declared::constrained() };
     assert_eq!(
         error(&problem),
-        "entry 0 of the Jacobian structure, at (0, 2), is outside of the 1 × 2 matrix"
+        "Jacobian structure, entry 0: found (0, 2), expected an entry of a 1 × 2 matrix"
     );
     let problem = Declared { jacobian: triplets(&[(-1, 1)]), ..Declared::constrained() };
     assert!(error(&problem).contains("(-1, 1)"));
     let problem = Declared { g_bounds: vec![], ..Declared::constrained() };
-    assert!(error(&problem).contains("outside of the 0 × 2 matrix"));
+    assert!(error(&problem).contains("expected an entry of a 0 × 2 matrix"));
     let problem = Declared { hessian: triplets(&[(0, 0), (2, 1)]), ..Declared::constrained() };
     assert_eq!(
         error(&problem),
-        "entry 1 of the Hessian structure, at (2, 1), is outside of the 2 × 2 matrix"
+        "Hessian structure, entry 1: found (2, 1), expected an entry of a 2 × 2 matrix"
     );
 }
 
@@ -112,7 +112,10 @@ fn a_structure_outside_of_its_matrix() {
 fn a_structure_of_two_lengths() {
     let mut problem = Declared::constrained();
     problem.hessian.columns.pop();
-    assert_eq!(error(&problem), "the Hessian structure has 2 row indices but 1 column indices");
+    assert_eq!(
+        error(&problem),
+        "Hessian structure: found 2 row indices and 1 column indices, expected as many"
+    );
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn an_entry_in_the_upper_triangle() {
     let problem = Declared { hessian: triplets(&[(0, 0), (0, 1)]), ..Declared::constrained() };
     assert_eq!(
         error(&problem),
-        "entry 1 of the Hessian structure, at (0, 1), is in the upper triangle"
+        "Hessian structure, entry 1: found (0, 1), expected the lower triangle"
     );
 }
 
@@ -129,13 +132,17 @@ fn bounds_that_nothing_lies_between() {
     let variable = |lower, upper| {
         error(&Declared { x_bounds: vec![(lower, upper); 2], ..Declared::constrained() })
     };
-    assert_eq!(variable(1.0, -1.0), "variable 0 cannot lie between 1 and -1");
-    assert_eq!(variable(f64::NAN, 1.0), "variable 0 cannot lie between NaN and 1");
-    assert_eq!(variable(0.0, f64::NAN), "variable 0 cannot lie between 0 and NaN");
-    assert_eq!(variable(INF, INF), "variable 0 cannot lie between inf and inf");
-    assert_eq!(variable(-INF, -INF), "variable 0 cannot lie between -inf and -inf");
+    let expect = |message: String, found: &str| {
+        let rest = ", expected lower ≤ upper, and a finite number between them";
+        assert_eq!(message, format!("{found}{rest}"));
+    };
+    expect(variable(1.0, -1.0), "bounds of variable 0: found [1, -1]");
+    expect(variable(f64::NAN, 1.0), "bounds of variable 0: found [NaN, 1]");
+    expect(variable(0.0, f64::NAN), "bounds of variable 0: found [0, NaN]");
+    expect(variable(INF, INF), "bounds of variable 0: found [inf, inf]");
+    expect(variable(-INF, -INF), "bounds of variable 0: found [-inf, -inf]");
     let problem = Declared { g_bounds: vec![(0.0, 1.0), (3.0, 2.0)], ..Declared::constrained() };
-    assert_eq!(error(&problem), "constraint 1 cannot lie between 3 and 2");
+    expect(error(&problem), "bounds of constraint 1: found [3, 2]");
 }
 
 #[test]
@@ -143,15 +150,15 @@ fn scaling_that_does_not_fit() {
     let message = |scaling| error(&Declared { scaling: Some(scaling), ..Declared::constrained() });
     assert_eq!(
         message(Scaling { objective: 0.0, x: None, g: None }),
-        "entry 0 of the objective scaling is 0; a finite number other than zero is allowed"
+        "objective scaling, entry 0: found 0, expected a finite number other than zero"
     );
     assert_eq!(
         message(Scaling { objective: 1.0, x: Some(vec![1.0, -1.0]), g: None }),
-        "entry 1 of the variable scaling is -1; a finite positive number is allowed"
+        "variable scaling, entry 1: found -1, expected a finite positive number"
     );
     assert_eq!(
         message(Scaling { objective: 1.0, x: None, g: Some(vec![]) }),
-        "0 entries of the constraint scaling where the problem needs 1"
+        "constraint scaling: found 0 entries, expected 1"
     );
 }
 
@@ -159,17 +166,14 @@ fn scaling_that_does_not_fit() {
 fn starts_that_do_not_fit() {
     let declared = Declarations::of(&Declared::constrained()).unwrap();
     let message = |start: Start| declared.check_start(&start).unwrap_err().to_string();
-    assert_eq!(
-        message(Start::at(vec![1.0; 3])),
-        "3 entries of the start where the problem needs 2"
-    );
+    assert_eq!(message(Start::at(vec![1.0; 3])), "start: found 3 entries, expected 2");
     assert_eq!(
         message(Start::at(vec![1.0, f64::NAN])),
-        "entry 1 of the start is NaN; a finite number is allowed"
+        "start, entry 1: found NaN, expected a finite number"
     );
     assert_eq!(
         message(Start::at(vec![-INF, 1.0])),
-        "entry 0 of the start is -inf; a finite number is allowed"
+        "start, entry 0: found -inf, expected a finite number"
     );
     let fitting =
         || Multipliers { constraints: vec![0.0; 1], lower: vec![0.0; 2], upper: vec![0.0; 2] };
@@ -177,11 +181,11 @@ fn starts_that_do_not_fit() {
     declared.check_start(&warm(fitting())).unwrap();
     assert_eq!(
         message(warm(Multipliers { constraints: vec![], ..fitting() })),
-        "0 entries of the constraint multipliers where the problem needs 1"
+        "constraint multipliers: found 0 entries, expected 1"
     );
     assert_eq!(
         message(warm(Multipliers { upper: vec![INF; 2], ..fitting() })),
-        "entry 0 of the upper bound multipliers is inf; a finite number is allowed"
+        "upper bound multipliers, entry 0: found inf, expected a finite number"
     );
 }
 

@@ -7,23 +7,23 @@ fn the_field_out_of_range_is_named() {
     let message = |options: Options| options.validate().unwrap_err().to_string();
     assert_eq!(
         message(Options { tolerance: 0.0, ..Options::default() }),
-        "option `tolerance` is 0; allowed is more than 0.0"
+        "option `tolerance`: found 0, expected more than 0.0"
     );
     assert_eq!(
         message(Options { bound_frac: 0.6, ..Options::default() }),
-        "option `bound_frac` is 0.6; allowed is more than 0.0, at most 0.5"
+        "option `bound_frac`: found 0.6, expected more than 0.0, at most 0.5"
     );
     assert_eq!(
         message(Options { mu_linear_decrease_factor: f64::NAN, ..Options::default() }),
-        "option `mu_linear_decrease_factor` is NaN; allowed is more than 0.0, less than 1.0"
+        "option `mu_linear_decrease_factor`: found NaN, expected more than 0.0, less than 1.0"
     );
     assert_eq!(
         message(Options { max_iterations: u32::MAX, ..Options::default() }),
-        "option `max_iterations` is 4294967295; allowed is at least 0.0, at most 2147483647.0"
+        "option `max_iterations`: found 4294967295, expected at least 0.0, at most 2147483647.0"
     );
     assert_eq!(
         message(Options { print_level: 13, ..Options::default() }),
-        "option `print_level` is 13; allowed is at least 0.0, at most 12.0"
+        "option `print_level`: found 13, expected at least 0.0, at most 12.0"
     );
 }
 

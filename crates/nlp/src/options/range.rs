@@ -56,7 +56,7 @@ impl OptionRange {
         if above && below {
             Ok(())
         } else {
-            Err(NlpError::OptionOutOfRange { field, value, allowed: self.to_string() })
+            Err(NlpError::OptionOutOfRange { field, value, expected: self.to_string() })
         }
     }
 }
