@@ -2,7 +2,6 @@
 
 mod common;
 
-use common::support::bunch_kaufman::BunchKaufman;
 use common::support::hock_schittkowski::*;
 use common::{fast, own};
 use righting_interior::GivesUp;

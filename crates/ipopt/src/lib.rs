@@ -109,9 +109,9 @@ pub use libraries::{Library, LinearSolvers, Versions, versions};
 pub use solve::{solve, solve_with};
 
 pub use righting_nlp::{
-    Bounds, Control, Declarations, Dimensions, EvaluationError, EvaluationTiming, Factorization,
-    FixedVariables, Hessian, Iteration, LinearSolver, LinearSolverError, LinearSolverTiming,
-    MatrixName, MuStrategy, MultiplierInitialization, Multipliers, NlpError, NlpScaling,
-    NlpSolution, OptionRange, OptionValue, Options, PivotTolerances, Problem, Scaling, Start,
-    Status, Tally, Timing, TripletStructure, VectorName,
+    AugmentedSystem, Bounds, BunchKaufman, Control, Declarations, Dimensions, EvaluationError,
+    EvaluationTiming, Factorization, FixedVariables, Hessian, Iteration, LinearSolver,
+    LinearSolverError, LinearSolverTiming, MatrixName, MuStrategy, MultiplierInitialization,
+    Multipliers, NlpError, NlpScaling, NlpSolution, OptionRange, OptionValue, Options,
+    PivotTolerances, Problem, Scaling, Start, Status, Tally, Timing, TripletStructure, VectorName,
 };

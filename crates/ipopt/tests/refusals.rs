@@ -90,7 +90,7 @@ fn a_solve_within_a_solve() {
 #[cfg(not(ipopt_ma57_slot))]
 #[test]
 fn a_linear_solver_for_an_ipopt_that_takes_none() {
-    let mut own = support::bunch_kaufman::BunchKaufman::default();
+    let mut own = BunchKaufman::default();
     let go_on = |_: &Iteration| Control::Continue;
     let outcome =
         solve_with(&mut Dense(Hs006), &Options::default(), &at(Hs006::START), &mut own, go_on);

@@ -4,7 +4,6 @@ mod support;
 
 use righting_ipopt::*;
 #[cfg(ipopt_ma57_slot)]
-use support::bunch_kaufman::BunchKaufman;
 use support::hock_schittkowski::*;
 
 const THREADS: usize = 8;

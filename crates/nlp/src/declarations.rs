@@ -104,19 +104,6 @@ impl Declarations {
         (0..self.constraints).filter(|&row| !self.is_equality(row))
     }
 
-    /// The unknown of each constraint's multiplier in the augmented system of a
-    /// [`LinearSolver`](crate::LinearSolver) (m): after variables and slacks, equalities first.
-    pub fn multiplier_unknowns(&self) -> Vec<usize> {
-        let slacks = self.inequalities().count();
-        let mut next = [self.variables + slacks, self.variables + self.constraints];
-        let unknown = |row| {
-            let next = &mut next[usize::from(!self.is_equality(row))];
-            *next += 1;
-            *next - 1
-        };
-        (0..self.constraints).map(unknown).collect()
-    }
-
     /// By how much a point leaves its bounds at most; NaN if that is not known.
     pub fn violation(&self, x: &[f64], g: &[f64]) -> f64 {
         let variables = x.iter().zip(&self.x_lower).zip(&self.x_upper);

@@ -69,7 +69,9 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod augmented_system;
 mod bounds;
+mod bunch_kaufman;
 mod declarations;
 mod error;
 mod iteration;
@@ -83,7 +85,9 @@ mod status;
 mod timing;
 mod triplet_structure;
 
+pub use augmented_system::AugmentedSystem;
 pub use bounds::Bounds;
+pub use bunch_kaufman::BunchKaufman;
 pub use declarations::Declarations;
 pub use error::{MatrixName, NlpError, VectorName};
 pub use iteration::{Control, Iteration};

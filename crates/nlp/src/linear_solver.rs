@@ -4,18 +4,11 @@ use thiserror::Error;
 
 /// A solver of the symmetric indefinite systems of the interior-point method.
 ///
-/// ```text
-/// ⎡ W + D_x         J_cᵀ   J_dᵀ ⎤       x    free variables
-/// ⎢         D_s            −I   ⎥       s    one slack for each inequality constraint
-/// ⎢ J_c            −D_c         ⎥       y_c  equality constraints
-/// ⎣ J_d     −I            −D_d  ⎦       y_d  inequality constraints
-/// ```
-///
-/// in this order, each kind in the order of the problem; fixed variables are left out unless
+/// Unknowns and triplets are those of an [`AugmentedSystem`](crate::AugmentedSystem), in any order
+/// of the triplets; fixed variables are left out unless
 /// [`Options::fixed_variables`](crate::Options::fixed_variables) says otherwise. All triplets are
 /// in the lower triangle, and the whole diagonal is among them. D_x and D_s hold the barrier terms
-/// and the regularisation, D_c and D_d are zero unless the constraints are regularised. (Wächter &
-/// Biegler 2006, section 3.1, with the slacks kept.)
+/// and the regularisation, D_c and D_d are zero unless the constraints are regularised.
 ///
 /// The matrix must have as many negative eigenvalues as there are constraints, or the optimizer adds
 /// to the diagonal and factors again. One iteration is one factorisation, or a few, and with iterative

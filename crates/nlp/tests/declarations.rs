@@ -199,17 +199,6 @@ fn a_problem_with_constraints_is_defined_nowhere_without_their_methods() {
 }
 
 #[test]
-fn multipliers_follow_variables_and_slacks_with_the_equalities_first() {
-    let problem = Declared {
-        g_bounds: vec![(0.0, 1.0), (2.0, 2.0), (-INF, 3.0), (4.0, 4.0)],
-        ..Declared::constrained()
-    };
-    let declared = Declarations::of(&problem).unwrap();
-    assert_eq!(declared.inequalities().collect::<Vec<_>>(), [0, 2]);
-    assert_eq!(declared.multiplier_unknowns(), [6, 4, 7, 5]);
-}
-
-#[test]
 fn violations_are_the_largest_and_unknown_where_a_value_is() {
     let problem = Declared { x_bounds: vec![(0.0, 1.0); 2], ..Declared::constrained() };
     let declared = Declarations::of(&problem).unwrap();

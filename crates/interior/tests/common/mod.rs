@@ -6,7 +6,6 @@ pub mod support;
 
 use righting_interior::{GivesUp, Solved};
 use righting_ipopt::*;
-use support::bunch_kaufman::BunchKaufman;
 
 /// Every iteration, and the end.
 pub type Run<T, E> = (Vec<Iteration>, Result<T, E>);

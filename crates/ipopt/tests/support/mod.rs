@@ -1,7 +1,7 @@
 //! Problems with published solutions, and a linear solver that shares nothing with MUMPS.
 #![allow(dead_code)]
 
-pub mod bunch_kaufman;
+pub mod counting;
 pub mod hock_schittkowski;
 pub mod meddling;
 pub mod quadratic;
