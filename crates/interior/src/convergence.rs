@@ -1,6 +1,6 @@
 //! When a solve ends, and when a barrier problem does. (Wächter & Biegler 2006, section 2.1.)
 
-use righting_ipopt::{LinearSolver, Problem, Status};
+use righting_nlp::{LinearSolver, Problem, Status};
 
 use crate::line_search::Watchdog;
 use crate::method::{Method, TAU_MIN};

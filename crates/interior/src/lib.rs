@@ -17,8 +17,8 @@
 //!
 //! κ and η as small as the inertia allows, shortened until they are acceptable to a filter.
 //!
-//! It takes [problems](righting_ipopt::Problem), [options](righting_ipopt::Options) and [linear
-//! solvers](righting_ipopt::LinearSolver) of `righting_ipopt` and goes the way that Ipopt goes with
+//! It takes [problems](righting_nlp::Problem), [options](righting_nlp::Options) and [linear
+//! solvers](righting_nlp::LinearSolver) of `righting_nlp` and goes the way that Ipopt goes with
 //! `fast_step_computation`, iterate by iterate up to rounding: monotone barrier parameter, filter,
 //! second-order corrections, watchdog, regularisation. It has no restoration phase. Where Ipopt would
 //! enter one, and wherever else it does not know how to go on, it [gives up](GivesUp), for Ipopt to
@@ -26,7 +26,7 @@
 //!
 //! ```
 //! use righting_interior::solve;
-//! use righting_ipopt::*;
+//! use righting_nlp::*;
 //!
 //! /// min Σ exp(x_i) − a_i x_i,  x_i ≥ 0
 //! struct Separable([f64; 2]);
@@ -119,7 +119,7 @@ mod system;
 
 pub use method::{Solved, solve};
 
-use righting_ipopt::{LinearSolverError, SolveError};
+use righting_nlp::{LinearSolverError, NlpError};
 
 /// Why a solve ended without an answer. None of it says anything about the problem: Ipopt may well
 /// solve it.
@@ -137,7 +137,7 @@ pub enum GivesUp {
     },
     /// The problem, the start or an option is not what it has to be.
     #[error(transparent)]
-    Invalid(#[from] SolveError),
+    Invalid(#[from] NlpError),
     /// A function or derivative is not defined where a step cannot be shortened.
     #[error("a function is not defined at the start, or a derivative at an accepted point")]
     Undefined,

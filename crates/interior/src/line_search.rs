@@ -1,6 +1,6 @@
 //! How far to go along a step. (Wächter & Biegler 2006, sections 2.3, 2.4 and 3.2.)
 
-use righting_ipopt::{LinearSolver, Problem};
+use righting_nlp::{LinearSolver, Problem};
 
 use crate::barrier::{dual_step, primal_step};
 use crate::filter::Reference;

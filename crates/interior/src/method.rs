@@ -1,7 +1,7 @@
 use std::time::Instant;
 
-use righting_ipopt::{
-    Control, Hessian, Iteration, LinearSolver, MuStrategy, Options, Problem, Solution, Start,
+use righting_nlp::{
+    Control, Hessian, Iteration, LinearSolver, MuStrategy, NlpSolution, Options, Problem, Start,
     Status, Timing,
 };
 
@@ -21,7 +21,7 @@ pub(crate) const TAU_MIN: f64 = 0.99;
 #[derive(Debug)]
 pub struct Solved {
     /// As Ipopt would return it.
-    pub solution: Solution,
+    pub solution: NlpSolution,
     /// Where it converged: whether the augmented system at the solution, not regularised, has one
     /// negative eigenvalue a constraint and none that is zero. Then the Lagrangian curves upwards
     /// along the constraints, those in force held, and the solution is a strict local minimum
@@ -305,13 +305,13 @@ where
         }
     }
 
-    fn into_solution(mut self, status: Status, last: Iteration, clock: Instant) -> Solution {
+    fn into_solution(mut self, status: Status, last: Iteration, clock: Instant) -> NlpSolution {
         let mut x = self.point.w;
         x.truncate(self.program.variables());
         self.program.put_within_bounds(&mut x);
         let g = self.program.unscaled_constraints(&x);
         let constraint_violation = self.program.declared.violation(&x, &g);
-        Solution {
+        NlpSolution {
             status,
             x,
             objective: last.objective,

@@ -1,4 +1,4 @@
-use righting_ipopt::Problem;
+use righting_nlp::Problem;
 
 use crate::barrier::{barrier, distances};
 use crate::filter::Merit;

@@ -1,6 +1,6 @@
 use std::time::Instant;
 
-use righting_ipopt::{
+use righting_nlp::{
     Declarations, EvaluationTiming, Multipliers, NlpScaling, Options, Problem, Start,
 };
 

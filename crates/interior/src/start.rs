@@ -1,6 +1,6 @@
 //! The first iterate. (Wächter & Biegler 2006, section 3.6.)
 
-use righting_ipopt::{MultiplierInitialization, Options, Problem, Start};
+use righting_nlp::{MultiplierInitialization, Options, Problem, Start};
 
 use crate::GivesUp;
 use crate::barrier::distances;

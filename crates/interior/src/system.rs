@@ -1,11 +1,10 @@
-use std::ops::Range;
 use std::time::Instant;
 
-use righting_ipopt::{
-    Declarations, Factorization, LinearSolver, LinearSolverTiming, Options, Problem,
+use righting_nlp::{
+    AugmentedSystem, Factorization, LinearSolver, LinearSolverTiming, Options, Problem,
 };
 
-use crate::program::{Program, Row};
+use crate::program::Program;
 use crate::{GivesUp, are_finite};
 
 /// What the pivot tolerance is raised to, of itself.
@@ -17,22 +16,10 @@ const SHRINKAGE: f64 = 1.0 / 3.0;
 /// The constraints are regularised by a multiple of μ to this power.
 const JACOBIAN_REGULARIZATION_POWER: f64 = 0.25;
 
-/// The augmented system in the form of [`LinearSolver`], values assembled where they are evaluated:
-///
-/// ```text
-/// values = [ W | diagonal of w | J | −1 of each slack | diagonal of the constraints ]
-/// ```
+/// The augmented system, its solver and its regularisation.
 pub(crate) struct System<'s, L: ?Sized> {
     solver: &'s mut L,
-    /// Of the primal unknowns.
-    primals: usize,
-    /// Unknown of each row's multiplier: the equalities come first.
-    unknown: Vec<usize>,
-    values: Vec<f64>,
-    hessian: Range<usize>,
-    diagonal: Range<usize>,
-    jacobian: Range<usize>,
-    constraint_diagonal: Range<usize>,
+    matrix: AugmentedSystem,
     right_hand_side: Vec<f64>,
     regularization: Regularization,
     pivot_tolerance: Option<f64>,
@@ -63,31 +50,9 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
         program: &Program<'_, P>,
         options: &Options,
     ) -> Result<Self, GivesUp> {
-        let (primals, constraints) = (program.primals(), program.rows.len());
-        let Declarations { jacobian, hessian, .. } = &program.declared;
-        let unknown = program.declared.multiplier_unknowns();
-        let (mut rows, mut columns) = (hessian.rows.clone(), hessian.columns.clone());
-        let of_hessian = 0..rows.len();
-        rows.extend((0..primals).map(|i| i as i32));
-        columns.extend((0..primals).map(|i| i as i32));
-        let diagonal = of_hessian.end..rows.len();
-        rows.extend(jacobian.rows.iter().map(|&row| unknown[row as usize] as i32));
-        columns.extend(&jacobian.columns);
-        let of_jacobian = diagonal.end..rows.len();
-        for (row, unknown) in program.rows.iter().zip(&unknown) {
-            if let Row::Slack(index) = *row {
-                rows.push(*unknown as i32);
-                columns.push(index as i32);
-            }
-        }
-        let constraint_diagonal = rows.len()..rows.len() + constraints;
-        rows.extend((primals..primals + constraints).map(|i| i as i32));
-        columns.extend((primals..primals + constraints).map(|i| i as i32));
-
-        let mut values = vec![0.0; rows.len()];
-        values[of_jacobian.end..constraint_diagonal.start].fill(-1.0);
+        let matrix = AugmentedSystem::new(&program.declared);
         let started = Instant::now();
-        let analysed = solver.analyse(primals + constraints, &rows, &columns);
+        let analysed = solver.analyse(matrix.order(), matrix.rows(), matrix.columns());
         let mut timing = LinearSolverTiming::default();
         timing.analyse.add_since(started);
         analysed.map_err(GivesUp::LinearSolver)?;
@@ -98,14 +63,8 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
         Ok(Self {
             pivot_tolerance: tolerances.map(|tolerances| tolerances.initial),
             solver,
-            primals,
-            unknown,
-            values,
-            hessian: of_hessian,
-            diagonal,
-            jacobian: of_jacobian,
-            constraint_diagonal,
-            right_hand_side: vec![0.0; primals + constraints],
+            right_hand_side: vec![0.0; matrix.order()],
+            matrix,
             regularization: Regularization {
                 first: options.first_hessian_perturbation,
                 least: options.min_hessian_perturbation,
@@ -120,17 +79,17 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
 
     /// Where the Hessian's values go.
     pub(crate) fn hessian_mut(&mut self) -> &mut [f64] {
-        &mut self.values[self.hessian.clone()]
+        self.matrix.hessian_mut()
     }
 
     /// Where the Jacobian's values go.
     pub(crate) fn jacobian_mut(&mut self) -> &mut [f64] {
-        &mut self.values[self.jacobian.clone()]
+        self.matrix.jacobian_mut()
     }
 
     /// The Jacobian's values.
     pub(crate) fn jacobian(&self) -> &[f64] {
-        &self.values[self.jacobian.clone()]
+        self.matrix.jacobian()
     }
 
     /// Factorises with these barrier terms Σ of w, and whatever regularisation gives one negative
@@ -139,7 +98,7 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
         let mut shift = Shift::default();
         let mut may_sharpen = true;
         loop {
-            let constraints = self.constraint_diagonal.len();
+            let constraints = self.matrix.constraints();
             match self.factorise_once(sigma, shift) {
                 Factorization::Regular { negative_eigenvalues: n } if n == constraints => break,
                 Factorization::Failed => return Err(GivesUp::NoStep),
@@ -170,27 +129,27 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
     /// right-hand sides of w. False where it has no solution.
     pub(crate) fn least_squares(&mut self, rhs: &[f64], y: &mut [f64]) -> bool {
         self.hessian_mut().fill(0.0);
-        if !self.has_right_inertia(&vec![1.0; self.primals]) {
+        if !self.has_right_inertia(&vec![1.0; self.matrix.primals()]) {
             return false;
         }
-        let zeros = vec![0.0; self.constraint_diagonal.len()];
-        self.solve(rhs, &zeros, &mut vec![0.0; self.primals], y);
+        let zeros = vec![0.0; self.matrix.constraints()];
+        self.solve(rhs, &zeros, &mut vec![0.0; self.matrix.primals()], y);
         are_finite(y)
     }
 
     /// Factorises without regularisation: whether there is one negative eigenvalue a constraint.
     pub(crate) fn has_right_inertia(&mut self, sigma: &[f64]) -> bool {
-        let negative_eigenvalues = self.constraint_diagonal.len();
+        let negative_eigenvalues = self.matrix.constraints();
         let right = Factorization::Regular { negative_eigenvalues };
         self.factorise_once(sigma, Shift::default()) == right
     }
 
     fn factorise_once(&mut self, sigma: &[f64], shift: Shift) -> Factorization {
-        let diagonal = &mut self.values[self.diagonal.clone()];
+        let diagonal = self.matrix.diagonal_mut();
         diagonal.iter_mut().zip(sigma).for_each(|(value, sigma)| *value = sigma + shift.primal);
-        self.values[self.constraint_diagonal.clone()].fill(-shift.constraint);
+        self.matrix.constraint_diagonal_mut().fill(-shift.constraint);
         let started = Instant::now();
-        let outcome = self.solver.factor(&self.values);
+        let outcome = self.solver.factor(self.matrix.values());
         self.timing.factor.add_since(started);
         outcome
     }
@@ -198,15 +157,15 @@ impl<'s, L: LinearSolver + ?Sized> System<'s, L> {
     /// Solves with the last factorisation.
     pub(crate) fn solve(&mut self, w: &[f64], c: &[f64], dw: &mut [f64], dy: &mut [f64]) {
         let rhs = &mut self.right_hand_side;
-        rhs[..self.primals].copy_from_slice(w);
-        for (&unknown, c) in self.unknown.iter().zip(c) {
+        rhs[..self.matrix.primals()].copy_from_slice(w);
+        for (&unknown, c) in self.matrix.multipliers().iter().zip(c) {
             rhs[unknown] = *c;
         }
         let started = Instant::now();
         self.solver.solve(rhs);
         self.timing.solve.add_since(started);
-        dw.copy_from_slice(&rhs[..self.primals]);
-        for (&unknown, dy) in self.unknown.iter().zip(dy) {
+        dw.copy_from_slice(&rhs[..self.matrix.primals()]);
+        for (&unknown, dy) in self.matrix.multipliers().iter().zip(dy) {
             *dy = rhs[unknown];
         }
     }

@@ -3,7 +3,6 @@
 mod common;
 
 use common::support::assert_close;
-use common::support::bunch_kaufman::BunchKaufman;
 use common::support::hock_schittkowski::*;
 use common::{fast, ipopt, own};
 use righting_ipopt::*;

@@ -2,13 +2,12 @@
 
 mod common;
 
-use common::support::bunch_kaufman::BunchKaufman;
 use common::support::hock_schittkowski::*;
 use common::{fast, own};
 use righting_interior::GivesUp;
 use righting_ipopt::*;
 
-fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<Solution, GivesUp> {
+fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<NlpSolution, GivesUp> {
     own(problem, options, &Start::at(x.to_vec())).1.map(|solved| solved.solution)
 }
 

@@ -1,8 +1,7 @@
 //! What Ipopt calls, and the way from there to the user's [`Problem`].
 
-use crate::declarations::Declarations;
 use crate::trap::Trap;
-use crate::{Control, EvaluationTiming, Iteration, Problem, Tally, TripletStructure};
+use crate::{Control, Declarations, EvaluationTiming, Iteration, Problem, Tally, TripletStructure};
 use righting_ipopt_sys as sys;
 use std::slice::{from_raw_parts, from_raw_parts_mut};
 use std::time::Instant;

@@ -1,3 +1,4 @@
+use crate::options::to_pass;
 use crate::{OptionValue, Options, Scaling, SolveError};
 use righting_ipopt_sys as sys;
 use std::ffi::{CString, c_void};
@@ -40,7 +41,7 @@ impl Handle {
     }
 
     pub(crate) fn set_all(&self, options: &Options) -> Result<(), SolveError> {
-        options.to_pass().iter().try_for_each(|(name, value)| self.set(name, value))
+        to_pass(options).iter().try_for_each(|(name, value)| self.set(name, value))
     }
 
     pub(crate) fn set(&self, name: &str, value: &OptionValue) -> Result<(), SolveError> {

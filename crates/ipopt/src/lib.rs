@@ -95,33 +95,23 @@
 //! is started from within a solve on the same thread is refused.
 
 mod callbacks;
-mod declarations;
 mod error;
 mod handle;
-mod iteration;
 mod libraries;
-mod linear_solver;
 mod options;
-mod problem;
 mod slot;
-mod solution;
 mod solve;
-mod start;
 mod status;
-mod timing;
 mod trap;
 
-pub use declarations::Declarations;
-pub use error::{Matrix, SolveError, VectorName};
-pub use iteration::{Control, Iteration};
+pub use error::SolveError;
 pub use libraries::{Library, LinearSolvers, Versions, versions};
-pub use linear_solver::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
-pub use options::{
-    FixedVariables, Hessian, MuStrategy, MultiplierInitialization, NlpScaling, OptionValue, Options,
-};
-pub use problem::{Bounds, Dimensions, EvaluationError, Problem, Scaling, TripletStructure};
-pub use solution::Solution;
 pub use solve::{solve, solve_with};
-pub use start::{Multipliers, Start};
-pub use status::Status;
-pub use timing::{EvaluationTiming, LinearSolverTiming, Tally, Timing};
+
+pub use righting_nlp::{
+    AugmentedSystem, Bounds, BunchKaufman, Control, Declarations, Dimensions, EvaluationError,
+    EvaluationTiming, Factorization, FixedVariables, Hessian, Iteration, LinearSolver,
+    LinearSolverError, LinearSolverTiming, MatrixName, MuStrategy, MultiplierInitialization,
+    Multipliers, NlpError, NlpScaling, NlpSolution, OptionRange, OptionValue, Options,
+    PivotTolerances, Problem, Scaling, Start, Status, Tally, Timing, TripletStructure, VectorName,
+};

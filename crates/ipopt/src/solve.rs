@@ -1,11 +1,12 @@
 use crate::callbacks::{self, Session};
-use crate::declarations::Declarations;
 use crate::handle::{Arrays, Handle};
+use crate::options::validate;
 use crate::slot::{self, Report};
+use crate::status::{brings_functions, status};
 use crate::trap::Trap;
 use crate::{
-    Control, EvaluationTiming, Iteration, LinearSolver, Multipliers, OptionValue, Options,
-    PivotTolerances, Problem, Solution, SolveError, Start, Status, Timing,
+    Control, Declarations, EvaluationTiming, Iteration, LinearSolver, Multipliers, NlpSolution,
+    OptionValue, Options, PivotTolerances, Problem, SolveError, Start, Status, Timing,
 };
 use std::cell::Cell;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -27,7 +28,7 @@ pub fn solve<P: Problem + ?Sized>(
     options: &Options,
     start: &Start,
     on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<Solution, SolveError> {
+) -> Result<NlpSolution, SolveError> {
     Solve { problem, options, start }.run(Engine::Mumps, on_iteration)
 }
 
@@ -45,7 +46,7 @@ pub fn solve_with<P: Problem + ?Sized, S: LinearSolver>(
     start: &Start,
     linear_solver: &mut S,
     on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<Solution, SolveError> {
+) -> Result<NlpSolution, SolveError> {
     Solve { problem, options, start }.run(Engine::Slot(linear_solver), on_iteration)
 }
 
@@ -61,12 +62,12 @@ enum Engine<'a> {
 }
 
 impl<P: Problem + ?Sized> Solve<'_, P> {
-    fn run<F>(self, engine: Engine, on_iteration: F) -> Result<Solution, SolveError>
+    fn run<F>(self, engine: Engine, on_iteration: F) -> Result<NlpSolution, SolveError>
     where
         F: FnMut(&Iteration) -> Control,
     {
         let _this_thread = Busy::enter()?;
-        self.options.validate()?;
+        validate(self.options)?;
         let mut declarations = Declarations::of(self.problem)?;
         declarations.check_start(self.start)?;
 
@@ -94,7 +95,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
             let user_data = (&raw mut session).cast();
             // SAFETY: the point has the sizes that were declared; the handle was created with the
             // callbacks of `Session<P, F>`, and the session is not touched before they are done.
-            let mut run = || Status::from(unsafe { handle.solve(point.arrays(), user_data) });
+            let mut run = || status(unsafe { handle.solve(point.arrays(), user_data) });
             let (status, report) = match engine {
                 Engine::Mumps => (run(), None),
                 Engine::Slot(solver) => {
@@ -112,7 +113,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         trap.release();
 
         let status = judge(status, report)?;
-        if !status.brings_functions() {
+        if !brings_functions(status) {
             point.evaluate(self.problem);
         }
         Ok(point.into_solution(status, last_iteration, timing, &declarations))
@@ -214,8 +215,8 @@ impl Point {
         last_iteration: Option<Iteration>,
         timing: Timing,
         declarations: &Declarations,
-    ) -> Solution {
-        Solution {
+    ) -> NlpSolution {
+        NlpSolution {
             status,
             constraint_violation: declarations.violation(&self.x, &self.g),
             x: self.x,

@@ -5,7 +5,6 @@ mod support;
 
 use righting_ipopt::*;
 use std::panic::panic_any;
-use support::bunch_kaufman::BunchKaufman;
 use support::caught;
 use support::hock_schittkowski::*;
 

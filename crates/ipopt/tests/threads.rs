@@ -4,14 +4,13 @@ mod support;
 
 use righting_ipopt::*;
 #[cfg(ipopt_ma57_slot)]
-use support::bunch_kaufman::BunchKaufman;
 use support::hock_schittkowski::*;
 
 const THREADS: usize = 8;
 const SOLVES: usize = 20;
 
 /// Runs solves in several threads; all must give the same bits as one alone.
-fn agree(solve: impl Fn() -> Solution + Sync) {
+fn agree(solve: impl Fn() -> NlpSolution + Sync) {
     let alone = solve();
     assert_eq!(alone.status, Status::Solved);
     std::thread::scope(|scope| {

@@ -72,5 +72,5 @@ pub use sparsity::KktSparsity;
 pub use stage::StageFunctions;
 pub use start::{Guess, Start};
 
-pub use righting_ipopt::{Control, Iteration, Options, Status, Timing};
+pub use righting_nlp::{Control, Iteration, Options, Status, Timing};
 pub use righting_symbolic::Backend;

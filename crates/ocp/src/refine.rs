@@ -1,4 +1,4 @@
-use righting_ipopt::{Control, Iteration, MultiplierInitialization, Options, Status};
+use righting_nlp::{Control, Iteration, MultiplierInitialization, Options, Status};
 
 use crate::error::OcpError;
 use crate::grid::Grid;

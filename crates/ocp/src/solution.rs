@@ -1,4 +1,4 @@
-use righting_ipopt::{Iteration, Status, Timing};
+use righting_nlp::{Iteration, Status, Timing};
 
 use crate::point::Point;
 use crate::samples::Samples;

@@ -241,7 +241,7 @@ impl MultipleShooting<'_> {
 
     fn solution(
         &self,
-        solution: righting_ipopt::Solution,
+        solution: righting_ipopt::NlpSolution,
         history: Vec<Iteration>,
         (optimizer, linear_solver): (Optimizer, UsedLinearSolver),
     ) -> Solution {

@@ -1,7 +1,7 @@
 //! Exact derivatives of transcribed problems against finite differences.
 
 use num_dual::DualNum;
-use righting_ipopt::Problem;
+use righting_nlp::Problem;
 use righting_ocp::*;
 use righting_scalar::Scalar;
 use righting_symbolic::Expr;

@@ -4,7 +4,7 @@ mod kkt_support;
 
 use kkt_support::arm::ArmSystem;
 use kkt_support::{Random, Recipe, System, backward_error, node, norm};
-use righting_ipopt::{Factorization, LinearSolver};
+use righting_nlp::{Factorization, LinearSolver};
 use righting_ocp::kkt::{NodeDims, StageDims, StageKkt};
 
 /// Factorises and solves; inertia must be exact, the solution accurate. Returns the negative eigenvalues.

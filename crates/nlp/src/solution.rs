@@ -2,7 +2,7 @@ use crate::{Iteration, Multipliers, Start, Status, Timing};
 
 /// Where a solve ended, however it did.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
+pub struct NlpSolution {
     /// How it ended.
     pub status: Status,
     /// The variables (n).
@@ -11,12 +11,12 @@ pub struct Solution {
     pub objective: f64,
     /// g(x) (m); NaN where it is not defined.
     pub g: Vec<f64>,
-    /// The multipliers; zero where Ipopt has none, after an error.
+    /// The multipliers; zero where the optimizer has none, after an error.
     pub multipliers: Multipliers,
     /// How many iterations were made.
     pub iterations: usize,
-    /// By how much x and g(x) violate their bounds at most, unscaled. Ipopt relaxes bounds a
-    /// little, see [`Options::bound_relax_factor`](crate::Options::bound_relax_factor).
+    /// By how much x and g(x) violate their bounds at most, unscaled. Bounds are relaxed a
+    /// little before a solve, see [`Options::bound_relax_factor`](crate::Options::bound_relax_factor).
     pub constraint_violation: f64,
     /// The last iteration, if there was any.
     pub last_iteration: Option<Iteration>,
@@ -24,7 +24,7 @@ pub struct Solution {
     pub timing: Timing,
 }
 
-impl Solution {
+impl NlpSolution {
     /// A warm start from here.
     pub fn to_start(&self) -> Start {
         Start { x: self.x.clone(), multipliers: Some(self.multipliers.clone()) }

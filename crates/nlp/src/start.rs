@@ -1,7 +1,7 @@
 /// Where a solve begins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// The variables (n). Ipopt moves them into the interior of their bounds, see
+    /// The variables (n). The optimizer moves them into the interior of their bounds, see
     /// [`Options::bound_push`](crate::Options::bound_push).
     pub x: Vec<f64>,
     /// Multipliers make it a warm start: they are used as they are, the `warm_start_…` options

@@ -1,8 +1,8 @@
-//! What must hold before Ipopt may see a problem: it checks little of this itself.
+//! What must hold before an optimizer may see a problem: Ipopt checks little of this itself.
 
 use crate::{
-    Bounds, Dimensions, Matrix, Multipliers, Problem, Scaling, SolveError, Start, TripletStructure,
-    VectorName,
+    Bounds, Dimensions, MatrixName, Multipliers, NlpError, Problem, Scaling, Start,
+    TripletStructure, VectorName,
 };
 
 /// A problem's declarations, checked: what a solver may rely on.
@@ -32,11 +32,11 @@ impl Declarations {
     /// Asks the problem and checks its answers.
     ///
     /// # Errors
-    /// [`SolveError`] for what Ipopt would refuse, or read beyond.
-    pub fn of<P: Problem + ?Sized>(problem: &P) -> Result<Self, SolveError> {
+    /// [`NlpError`] for what an optimizer would refuse, or read beyond.
+    pub fn of<P: Problem + ?Sized>(problem: &P) -> Result<Self, NlpError> {
         let Dimensions { variables, constraints } = problem.dimensions();
         if variables == 0 {
-            return Err(SolveError::NoVariables);
+            return Err(NlpError::NoVariables);
         }
         check_count("variables", variables)?;
         check_count("constraints", constraints)?;
@@ -62,11 +62,11 @@ impl Declarations {
         Ok(declarations)
     }
 
-    fn check(&self) -> Result<(), SolveError> {
+    fn check(&self) -> Result<(), NlpError> {
         check_bounds(VectorName::Variable, &self.x_lower, &self.x_upper)?;
         check_bounds(VectorName::Constraint, &self.g_lower, &self.g_upper)?;
-        check_structure(Matrix::Jacobian, &self.jacobian, self.constraints, self.variables)?;
-        check_structure(Matrix::Hessian, &self.hessian, self.variables, self.variables)?;
+        check_structure(MatrixName::Jacobian, &self.jacobian, self.constraints, self.variables)?;
+        check_structure(MatrixName::Hessian, &self.hessian, self.variables, self.variables)?;
         check_lower_triangle(&self.hessian)?;
         if let Some(Scaling { objective, x, g }) = &self.scaling {
             check_factor(*objective)?;
@@ -83,8 +83,8 @@ impl Declarations {
     /// Checks that a start fits the problem, and is made of finite numbers.
     ///
     /// # Errors
-    /// [`SolveError`] where it does not.
-    pub fn check_start(&self, start: &Start) -> Result<(), SolveError> {
+    /// [`NlpError`] where it does not.
+    pub fn check_start(&self, start: &Start) -> Result<(), NlpError> {
         check_finite(VectorName::Start, &start.x, self.variables)?;
         if let Some(Multipliers { constraints, lower, upper }) = &start.multipliers {
             check_finite(VectorName::ConstraintMultipliers, constraints, self.constraints)?;
@@ -104,19 +104,6 @@ impl Declarations {
         (0..self.constraints).filter(|&row| !self.is_equality(row))
     }
 
-    /// The unknown of each constraint's multiplier in the augmented system of a
-    /// [`LinearSolver`](crate::LinearSolver) (m): after variables and slacks, equalities first.
-    pub fn multiplier_unknowns(&self) -> Vec<usize> {
-        let slacks = self.inequalities().count();
-        let mut next = [self.variables + slacks, self.variables + self.constraints];
-        let unknown = |row| {
-            let next = &mut next[usize::from(!self.is_equality(row))];
-            *next += 1;
-            *next - 1
-        };
-        (0..self.constraints).map(unknown).collect()
-    }
-
     /// By how much a point leaves its bounds at most; NaN if that is not known.
     pub fn violation(&self, x: &[f64], g: &[f64]) -> f64 {
         let variables = x.iter().zip(&self.x_lower).zip(&self.x_upper);
@@ -128,17 +115,17 @@ impl Declarations {
     }
 }
 
-fn check_count(what: &'static str, count: usize) -> Result<i32, SolveError> {
-    i32::try_from(count).map_err(|_| SolveError::TooMany { what, count })
+fn check_count(what: &'static str, count: usize) -> Result<i32, NlpError> {
+    i32::try_from(count).map_err(|_| NlpError::TooMany { what, count })
 }
 
-fn check_bounds(vector: VectorName, lower: &[f64], upper: &[f64]) -> Result<(), SolveError> {
+fn check_bounds(vector: VectorName, lower: &[f64], upper: &[f64]) -> Result<(), NlpError> {
     let possible = |lower: f64, upper: f64| {
         lower <= upper && lower != f64::INFINITY && upper != f64::NEG_INFINITY
     };
     let found = lower.iter().zip(upper).position(|(lower, upper)| !possible(*lower, *upper));
     match found {
-        Some(index) => Err(SolveError::ImpossibleBounds {
+        Some(index) => Err(NlpError::ImpossibleBounds {
             vector,
             index,
             lower: lower[index],
@@ -149,68 +136,68 @@ fn check_bounds(vector: VectorName, lower: &[f64], upper: &[f64]) -> Result<(), 
 }
 
 fn check_structure(
-    matrix: Matrix,
+    matrix: MatrixName,
     structure: &TripletStructure,
     height: usize,
     width: usize,
-) -> Result<(), SolveError> {
+) -> Result<(), NlpError> {
     let TripletStructure { rows, columns } = structure;
     if rows.len() != columns.len() {
         let (rows, columns) = (rows.len(), columns.len());
-        return Err(SolveError::UnevenStructure { matrix, rows, columns });
+        return Err(NlpError::UnevenStructure { matrix, rows, columns });
     }
     check_count("entries of a matrix", rows.len())?;
     let inside = |index: i32, length: usize| usize::try_from(index).is_ok_and(|i| i < length);
     for (entry, (&row, &column)) in rows.iter().zip(columns).enumerate() {
         if !inside(row, height) || !inside(column, width) {
-            return Err(SolveError::EntryOutOfRange { matrix, entry, row, column, height, width });
+            return Err(NlpError::EntryOutOfRange { matrix, entry, row, column, height, width });
         }
     }
     Ok(())
 }
 
-fn check_lower_triangle(hessian: &TripletStructure) -> Result<(), SolveError> {
+fn check_lower_triangle(hessian: &TripletStructure) -> Result<(), NlpError> {
     for (entry, (&row, &column)) in hessian.rows.iter().zip(&hessian.columns).enumerate() {
         if column > row {
-            return Err(SolveError::UpperTriangle { entry, row, column });
+            return Err(NlpError::UpperTriangle { entry, row, column });
         }
     }
     Ok(())
 }
 
-fn check_factor(objective: f64) -> Result<(), SolveError> {
+fn check_factor(objective: f64) -> Result<(), NlpError> {
     if objective.is_finite() && objective != 0.0 {
         return Ok(());
     }
-    Err(SolveError::BadNumber {
+    Err(NlpError::BadNumber {
         vector: VectorName::ObjectiveScaling,
         index: 0,
         value: objective,
-        allowed: "a finite number other than zero",
+        expected: "a finite number other than zero",
     })
 }
 
-fn check_factors(vector: VectorName, values: &[f64], expected: usize) -> Result<(), SolveError> {
-    let allowed = "a finite positive number";
-    check_entries(vector, values, expected, allowed, |value| value.is_finite() && value > 0.0)
+fn check_factors(vector: VectorName, values: &[f64], length: usize) -> Result<(), NlpError> {
+    let expected = "a finite positive number";
+    check_entries(vector, values, length, expected, |value| value.is_finite() && value > 0.0)
 }
 
-fn check_finite(vector: VectorName, values: &[f64], expected: usize) -> Result<(), SolveError> {
-    check_entries(vector, values, expected, "a finite number", f64::is_finite)
+fn check_finite(vector: VectorName, values: &[f64], length: usize) -> Result<(), NlpError> {
+    check_entries(vector, values, length, "a finite number", f64::is_finite)
 }
 
 fn check_entries(
     vector: VectorName,
     values: &[f64],
-    expected: usize,
-    allowed: &'static str,
+    length: usize,
+    expected: &'static str,
     good: impl Fn(f64) -> bool,
-) -> Result<(), SolveError> {
-    if values.len() != expected {
-        return Err(SolveError::WrongLength { vector, expected, found: values.len() });
+) -> Result<(), NlpError> {
+    if values.len() != length {
+        return Err(NlpError::WrongLength { vector, expected: length, found: values.len() });
     }
     match values.iter().position(|value| !good(*value)) {
-        Some(index) => Err(SolveError::BadNumber { vector, index, value: values[index], allowed }),
+        Some(index) => Err(NlpError::BadNumber { vector, index, value: values[index], expected }),
         None => Ok(()),
     }
 }

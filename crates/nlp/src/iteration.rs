@@ -1,4 +1,4 @@
-/// One iteration, as Ipopt reports it. Norms are maximum norms of the scaled problem.
+/// One iteration, as the optimizer reports it. Norms are maximum norms of the scaled problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
     /// Counts from zero, the start; the restoration phase counts on.

@@ -1,23 +1,17 @@
 use std::error::Error;
+
 use thiserror::Error;
 
 /// A solver of the symmetric indefinite systems of the interior-point method.
 ///
-/// ```text
-/// ⎡ W + D_x         J_cᵀ   J_dᵀ ⎤       x    free variables
-/// ⎢         D_s            −I   ⎥       s    one slack for each inequality constraint
-/// ⎢ J_c            −D_c         ⎥       y_c  equality constraints
-/// ⎣ J_d     −I            −D_d  ⎦       y_d  inequality constraints
-/// ```
-///
-/// in this order, each kind in the order of the problem; fixed variables are left out unless
+/// Unknowns and triplets are those of an [`AugmentedSystem`](crate::AugmentedSystem), in any order
+/// of the triplets; fixed variables are left out unless
 /// [`Options::fixed_variables`](crate::Options::fixed_variables) says otherwise. All triplets are
 /// in the lower triangle, and the whole diagonal is among them. D_x and D_s hold the barrier terms
-/// and the regularisation, D_c and D_d are zero unless the constraints are regularised. (Wächter &
-/// Biegler 2006, section 3.1, with the slacks kept.)
+/// and the regularisation, D_c and D_d are zero unless the constraints are regularised.
 ///
-/// The matrix must have as many negative eigenvalues as there are constraints, or Ipopt adds to
-/// the diagonal and factors again. One iteration is one factorisation, or a few, and with iterative
+/// The matrix must have as many negative eigenvalues as there are constraints, or the optimizer adds
+/// to the diagonal and factors again. One iteration is one factorisation, or a few, and with iterative
 /// refinement a few solutions. At a cold start there is one more, of the system that gives
 /// least-squares multipliers: an identity in place of W + D_x and D_s.
 ///
@@ -40,7 +34,7 @@ pub trait LinearSolver {
     fn solve(&mut self, right_hand_sides: &mut [f64]);
 
     /// The range of pivot tolerances, for a solver that can trade sparsity for accuracy. With
-    /// `None` Ipopt regularises at once when a solution is not accurate enough.
+    /// `None` the optimizer regularises at once when a solution is not accurate enough.
     fn pivot_tolerances(&self) -> Option<PivotTolerances> {
         None
     }
@@ -50,7 +44,7 @@ pub trait LinearSolver {
 }
 
 /// Pivot tolerances u, with 0 < initial ≤ largest < 1: each time that a solution is not accurate
-/// enough Ipopt raises u to u^¾, up to the largest, and factors the same matrix again.
+/// enough the optimizer raises u to u^¾, up to the largest, and factors the same matrix again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PivotTolerances {
     /// The first one.
@@ -67,9 +61,9 @@ pub enum Factorization {
         /// How many of its eigenvalues are negative.
         negative_eigenvalues: usize,
     },
-    /// The matrix is singular; Ipopt regularises it.
+    /// The matrix is singular; the optimizer regularises it.
     Singular,
-    /// It could not be factored at all. Ipopt tries its restoration phase, and ends with
+    /// It could not be factored at all. The optimizer tries its restoration phase, and ends with
     /// [`Status::LinearSolverFailed`](crate::Status::LinearSolverFailed) if that fails too.
     Failed,
 }

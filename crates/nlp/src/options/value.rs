@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// The value of an option, by its type in Ipopt.
+/// The value of an option, by its type in Ipopt's reference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OptionValue {
     /// A floating-point number.
@@ -21,7 +21,7 @@ impl fmt::Display for OptionValue {
     }
 }
 
-/// A field's value as Ipopt takes it.
+/// A field's value as an [`OptionValue`].
 pub(super) trait Field {
     fn value(self) -> OptionValue;
 }
@@ -68,7 +68,7 @@ macro_rules! keywords {
 }
 
 keywords! {
-    /// How Ipopt scales objective and constraints.
+    /// How objective and constraints are scaled.
     NlpScaling {
         /// So that no gradient at the start is larger than
         /// [`Options::nlp_scaling_max_gradient`](crate::Options::nlp_scaling_max_gradient).

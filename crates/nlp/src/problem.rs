@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use crate::{Bounds, Scaling, TripletStructure};
+
 /// A nonlinear program with sparse derivatives.
 ///
 /// With n variables and m constraints: `x` has n entries, `g` and the constraint multipliers m.
@@ -8,7 +10,7 @@ use thiserror::Error;
 /// declared; entries given twice are summed.
 ///
 /// An [`EvaluationError`], a NaN or an infinity all say "not defined here". For the objective and
-/// the constraints at a trial point Ipopt then shortens the step. At the start, and for a
+/// the constraints at a trial point the optimizer then shortens the step. At the start, and for a
 /// derivative at a point already accepted, it has nothing to shorten and ends with
 /// [`Status::InvalidNumber`](crate::Status::InvalidNumber).
 pub trait Problem {
@@ -16,11 +18,17 @@ pub trait Problem {
     fn dimensions(&self) -> Dimensions;
 
     /// Writes the bounds. They come filled with −∞ and +∞: no bound. Equal bounds fix a variable or
-    /// make an equality constraint. Ipopt reads anything beyond ±1e19 as no bound.
-    fn bounds(&self, bounds: &mut Bounds);
+    /// make an equality constraint. Anything beyond ±1e19 is read as no bound.
+    ///
+    /// Without this method nothing is bounded.
+    fn bounds(&self, _bounds: &mut Bounds) {}
 
     /// Where ∂g/∂x may be nonzero: m rows, n columns.
-    fn jacobian_structure(&self) -> TripletStructure;
+    ///
+    /// Without this method nowhere, as fits a problem without constraints.
+    fn jacobian_structure(&self) -> TripletStructure {
+        TripletStructure::default()
+    }
 
     /// Where the lower triangle of the Lagrangian's Hessian may be nonzero: n rows, n columns,
     /// row ≥ column.
@@ -38,16 +46,30 @@ pub trait Problem {
     ) -> Result<(), EvaluationError>;
 
     /// g(x).
-    fn constraints(&mut self, x: &[f64], new_x: bool, g: &mut [f64])
-    -> Result<(), EvaluationError>;
+    ///
+    /// A problem without constraints needs no such method; one with constraints is defined nowhere
+    /// without it.
+    fn constraints(
+        &mut self,
+        _x: &[f64],
+        _new_x: bool,
+        g: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        if g.is_empty() { Ok(()) } else { Err(EvaluationError) }
+    }
 
     /// ∂g/∂x.
+    ///
+    /// A problem without constraints needs no such method; one whose constraints have derivatives
+    /// is defined nowhere without it.
     fn jacobian(
         &mut self,
-        x: &[f64],
-        new_x: bool,
+        _x: &[f64],
+        _new_x: bool,
         values: &mut [f64],
-    ) -> Result<(), EvaluationError>;
+    ) -> Result<(), EvaluationError> {
+        if values.is_empty() { Ok(()) } else { Err(EvaluationError) }
+    }
 
     /// `objective_factor` ∇²f(x) + Σ `multipliers[i]` ∇²gᵢ(x).
     #[allow(clippy::too_many_arguments)]
@@ -61,7 +83,7 @@ pub trait Problem {
         values: &mut [f64],
     ) -> Result<(), EvaluationError>;
 
-    /// Scaling that the problem knows better than Ipopt can find out. Where given, it takes the
+    /// Scaling that the problem knows better than the optimizer can find out. Where given, it takes the
     /// place of [`Options::nlp_scaling`](crate::Options::nlp_scaling).
     fn scaling(&self) -> Option<Scaling> {
         None
@@ -80,49 +102,4 @@ pub struct Dimensions {
     pub variables: usize,
     /// m, possibly none.
     pub constraints: usize,
-}
-
-/// Bounds of the variables (n entries each) and of the constraints (m entries each).
-#[derive(Debug, PartialEq)]
-pub struct Bounds<'a> {
-    /// Least values of the variables.
-    pub x_lower: &'a mut [f64],
-    /// Greatest values of the variables.
-    pub x_upper: &'a mut [f64],
-    /// Least values of the constraints.
-    pub g_lower: &'a mut [f64],
-    /// Greatest values of the constraints.
-    pub g_upper: &'a mut [f64],
-}
-
-/// A sparsity pattern as coordinates that count from zero.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct TripletStructure {
-    /// Row of each entry.
-    pub rows: Vec<i32>,
-    /// Column of each entry.
-    pub columns: Vec<i32>,
-}
-
-impl TripletStructure {
-    /// The number of entries.
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Whether there are no entries.
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-}
-
-/// Factors by which Ipopt multiplies functions and variables before it measures anything.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scaling {
-    /// Factor of the objective; negative maximises.
-    pub objective: f64,
-    /// Positive factors of the variables (n); `None`: all one.
-    pub x: Option<Vec<f64>>,
-    /// Positive factors of the constraints (m); `None`: all one.
-    pub g: Option<Vec<f64>>,
 }

@@ -1,16 +1,21 @@
-use crate::SolveError;
 use std::fmt;
 
-/// An interval, open or closed at either end.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Range {
-    pub(super) lower: f64,
-    pub(super) upper: f64,
-    pub(super) lower_belongs: bool,
-    pub(super) upper_belongs: bool,
+use crate::NlpError;
+
+/// What an option may be: an interval, open or closed at either end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OptionRange {
+    /// Its lower end.
+    pub lower: f64,
+    /// Its upper end.
+    pub upper: f64,
+    /// Whether the lower end belongs to it.
+    pub lower_belongs: bool,
+    /// Whether the upper end belongs to it.
+    pub upper_belongs: bool,
 }
 
-impl Range {
+impl OptionRange {
     pub(super) const fn any() -> Self {
         Self {
             lower: f64::NEG_INFINITY,
@@ -32,7 +37,7 @@ impl Range {
         Self::at_least(lower).up_to(upper)
     }
 
-    /// An integer for Ipopt, which has 32 bits.
+    /// An integer of 32 bits, as Ipopt has it.
     pub(super) const fn count(lower: f64) -> Self {
         Self::between(lower, i32::MAX as f64)
     }
@@ -45,18 +50,18 @@ impl Range {
         Self { upper, upper_belongs: true, ..self }
     }
 
-    pub(super) fn check(self, field: &'static str, value: f64) -> Result<(), SolveError> {
+    pub(super) fn check(self, field: &'static str, value: f64) -> Result<(), NlpError> {
         let above = value > self.lower || (self.lower_belongs && value == self.lower);
         let below = value < self.upper || (self.upper_belongs && value == self.upper);
         if above && below {
             Ok(())
         } else {
-            Err(SolveError::OptionOutOfRange { field, value, allowed: self.to_string() })
+            Err(NlpError::OptionOutOfRange { field, value, expected: self.to_string() })
         }
     }
 }
 
-impl fmt::Display for Range {
+impl fmt::Display for OptionRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lower, upper) = (self.lower, self.upper);
         match (lower.is_finite(), self.lower_belongs) {

@@ -3,18 +3,18 @@ use std::time::{Duration, Instant};
 /// Where the wall time of a solve went.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Timing {
-    /// The whole solve, without waiting for MUMPS to be free.
+    /// The whole solve, without waiting for the optimizer to be free.
     pub total: Duration,
     /// Inside the [`Problem`](crate::Problem) and the iteration callback.
     pub evaluation: EvaluationTiming,
-    /// Inside the [`LinearSolver`](crate::LinearSolver); `None` with MUMPS, whose time is part of
-    /// [`Timing::inside_ipopt`].
+    /// Inside the [`LinearSolver`](crate::LinearSolver); `None` with the optimizer's own, whose time is part of
+    /// [`Timing::inside_optimizer`].
     pub linear_solver: Option<LinearSolverTiming>,
 }
 
 impl Timing {
-    /// What is left: Ipopt's own work, and MUMPS unless a linear solver was given.
-    pub fn inside_ipopt(&self) -> Duration {
+    /// What is left: the optimizer's own work, its own linear solver included if none was given.
+    pub fn inside_optimizer(&self) -> Duration {
         let linear = self.linear_solver.map_or(Duration::ZERO, |timing| timing.total());
         self.total.saturating_sub(self.evaluation.total()).saturating_sub(linear)
     }
