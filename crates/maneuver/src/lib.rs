@@ -46,6 +46,7 @@ pub mod envelope;
 pub mod error;
 pub mod file;
 pub mod files;
+mod finite_or_null;
 mod formulation;
 mod halton;
 pub mod histories;

@@ -17,8 +17,8 @@ use serde::Serialize;
 
 use crate::dormand_prince::DormandPrince;
 use crate::error::ShapeError;
+use crate::finite_or_null::FiniteOrNull;
 use crate::scenario::Scenario;
-use crate::solution::FiniteOrNull;
 use crate::trajectory::{Interval, Node, Trajectory};
 
 /// The paper's overall actuator efficiency η.

@@ -21,9 +21,10 @@ use serde::Serialize;
 
 use crate::detumble::rate_bound_rad_s;
 use crate::error::Error;
+use crate::finite_or_null::FiniteOrNull;
 use crate::planner::{Plan, PlanError};
 use crate::scenario::{LONGEST_S, Maneuver, Scenario};
-use crate::solution::{FiniteOrNull, IterationRecord, Status, Terminal};
+use crate::solution::{IterationRecord, Status, Terminal};
 use crate::verification::Verification;
 use frontier::{Frontier, Line, Resolution};
 use trial::Trials;

@@ -1,12 +1,12 @@
 //! What a solve hands back besides the trajectory: the contents of `solution.json`.
 
-use std::borrow::Cow;
 use std::path::Path;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::finite_or_null::FiniteOrNull;
 use crate::json::{Document, FileKind};
 use crate::verification::Verification;
 use crate::{file, files};
@@ -228,32 +228,5 @@ impl Solution {
     pub fn read_json(file: &Path) -> Result<Self, Error> {
         let document = Document::read(file, FileKind::Solution)?;
         document.decode()
-    }
-}
-
-/// Non-finite numbers as `null`, which JSON has no other word for.
-pub(crate) struct FiniteOrNull;
-
-impl FiniteOrNull {
-    pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        value.is_finite().then_some(*value).serialize(serializer)
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
-    }
-}
-
-impl JsonSchema for FiniteOrNull {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        Option::<f64>::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        Option::<f64>::json_schema(generator)
     }
 }

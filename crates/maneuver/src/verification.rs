@@ -5,7 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::solution::FiniteOrNull;
+use crate::finite_or_null::FiniteOrNull;
 
 /// Outcome of the independent check.
 ///
