@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::Offset;
-use righting_maneuver::Verified;
 use righting_report::{AemOptions, aem, npz};
+use righting_verifier::Verified;
 
 use crate::failure::Failure;
 use crate::output_folder::{AEM_FILE, NPZ_FILE, OutputFolder};

@@ -3,19 +3,20 @@
 use std::io;
 use std::path::PathBuf;
 
-use righting_maneuver::error::Mismatch;
-use righting_maneuver::json::FileKind;
-use righting_maneuver::verifier::ATTITUDE_ERROR;
-use righting_maneuver::{PlanError, ReachError, Solution, Status};
+use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
+use righting_results::{Solution, Status};
+use righting_scenario::error::Mismatch;
+use righting_scenario::json::FileKind;
 use righting_sweep::SweepError;
+use righting_verifier::ATTITUDE_ERROR;
 
 /// Why a command did not do what was asked. Messages are read at one glance.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A file of the user's is wrong or cannot be read or written.
     #[error(transparent)]
-    Input(#[from] righting_maneuver::Error),
+    Input(#[from] righting_scenario::Error),
     /// The same of a file that is no scenario.
     #[error("{error}")]
     InputOf {
@@ -23,7 +24,7 @@ pub enum Failure {
         kind: FileKind,
         /// What is wrong with it.
         #[source]
-        error: righting_maneuver::Error,
+        error: righting_scenario::Error,
     },
     /// A file stands where a folder is expected.
     #[error("{}: {}", path.display(), Mismatch::new("a file", expected))]

@@ -2,9 +2,11 @@
 
 use std::io::ErrorKind;
 
-use righting_maneuver::json::FileKind;
-use righting_maneuver::{Error, ReachError, Status};
+use righting_planner::ReachError;
 use righting_report::ReportError;
+use righting_results::Status;
+use righting_scenario::Error;
+use righting_scenario::json::FileKind;
 use righting_sweep::SweepError;
 
 use crate::failure::Failure;

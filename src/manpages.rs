@@ -38,7 +38,7 @@ fn write(
     let page = Man::new(command.clone()).source(source);
     let name = page.get_filename();
     let mut text = Vec::new();
-    page.render(&mut text).map_err(|source| righting_maneuver::Error::Write {
+    page.render(&mut text).map_err(|source| righting_scenario::Error::Write {
         file: Path::new(&name).to_owned(),
         source,
     })?;

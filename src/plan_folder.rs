@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use righting_maneuver::json::FileKind;
-use righting_maneuver::{Verified, verify_directory};
+use righting_scenario::json::FileKind;
+use righting_verifier::{Verified, verify_directory};
 
 use crate::failure::Failure;
 

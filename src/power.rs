@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
-use righting_maneuver::wheels::Wheel;
-use righting_maneuver::{Error, PowerProfile, Verified};
+use righting_analysis::PowerProfile;
+use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
 use righting_report::{PowerComparison, power_svg, power_table};
+use righting_scenario::Error;
+use righting_scenario::wheels::Wheel;
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;

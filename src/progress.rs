@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use righting_maneuver::IterationRecord;
+use righting_results::IterationRecord;
 
 use crate::output;
 

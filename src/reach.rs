@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
-use righting_maneuver::scenario::MAX_STARTS;
-use righting_maneuver::{Maneuver, Scenario};
 use righting_ocp::Control;
+use righting_planner::reach;
+use righting_planner::reach::{Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_report::{FigureWriter, reach_summary, reach_svg};
+use righting_scenario::scenario::MAX_STARTS;
+use righting_scenario::{Maneuver, Scenario};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
 use serde_json::Value;

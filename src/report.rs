@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::Verified;
 use righting_report::report_html;
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;

@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal};
 use std::path::Path;
 
-use righting_maneuver::{Scenario, files};
+use righting_scenario::{Scenario, file_io};
 
 use crate::failure::Failure;
 use crate::output::{self, Label};
@@ -23,7 +23,7 @@ pub fn read(path: &Path) -> Result<Scenario, Failure> {
     if source.is_terminal() {
         output::say(Label::Note, "the scenario is read from standard input, up to Ctrl-D");
     }
-    let text = files::read_from(source, name(path), files::JSON_LIMIT_BYTES)?;
+    let text = file_io::read_from(source, name(path), file_io::JSON_LIMIT_BYTES)?;
     Ok(Scenario::parse(&text, name(path))?)
 }
 

@@ -4,15 +4,17 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use righting_maneuver::detumble::rate_bound_rad_s;
-use righting_maneuver::solution::SCHEMA;
-use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
-use righting_maneuver::{
-    IterationRecord, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing, Trajectory,
-    Verification, Versions, plan, plan_from, verify,
-};
+use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::{Control, UsedLinearSolver};
+use righting_planner::{Plan, plan, plan_from};
 use righting_report::{FigureWriter, report_html, summary};
+use righting_results::solution::SCHEMA;
+use righting_results::{
+    IterationRecord, SOLUTION_FILE, Solution, Status, TRAJECTORY_FILE, Terminal, Timing,
+    Trajectory, Verification, Versions,
+};
+use righting_scenario::{Maneuver, Scenario};
+use righting_verifier::verify;
 use serde::Serialize;
 
 use crate::failure::Failure;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::verifier::TRAJECTORY_FILE;
-use righting_maneuver::{Verification, Verified};
 use righting_report::verification_summary;
+use righting_results::{TRAJECTORY_FILE, Verification};
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;

@@ -3,9 +3,10 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use righting_maneuver::library::is_same_arm;
-use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
-use righting_maneuver::{Error, Library, Scenario, Solution, Trajectory};
+use righting_planner::Library;
+use righting_planner::library::is_same_arm;
+use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
+use righting_scenario::{Error, Scenario};
 
 use crate::failure::Failure;
 use crate::output::{self, Label};

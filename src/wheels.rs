@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::WheelArray;
-use righting_maneuver::json::FileKind;
+use righting_scenario::WheelArray;
+use righting_scenario::json::FileKind;
 
 use crate::failure::Failure;
 

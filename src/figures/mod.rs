@@ -7,16 +7,17 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::power::PAPER_EFFICIENCY;
-use righting_maneuver::sparsity::kkt_sparsity;
-use righting_maneuver::verifier::SOLUTION_FILE;
-use righting_maneuver::{
-    Error, Histories, PlanError, PowerProfile, Scenario, Solution, Trajectory, Verified, WheelArray,
-};
+use righting_analysis::power::PAPER_EFFICIENCY;
+use righting_analysis::{Histories, PowerProfile};
+use righting_planner::PlanError;
+use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
     FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
     momentum_svg, power_svg, sparsity_svg,
 };
+use righting_results::{SOLUTION_FILE, Solution, Trajectory};
+use righting_scenario::{Error, Scenario, WheelArray};
+use righting_verifier::Verified;
 
 pub use self::formats::Formats;
 use crate::failure::Failure;

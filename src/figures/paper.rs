@@ -3,15 +3,16 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use righting_maneuver::envelope::sampled_maxima;
-use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
-use righting_maneuver::{
-    Error, PowerProfile, Scenario, Solution, Status, Trajectory, WheelArray, envelopes, plan,
-};
+use righting_analysis::envelope::sampled_maxima;
+use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
+use righting_analysis::{PowerProfile, envelopes};
 use righting_ocp::Control;
+use righting_planner::plan;
 use righting_report::{
     FigureWriter, PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg,
 };
+use righting_results::{Solution, Status, Trajectory};
+use righting_scenario::{Error, Scenario, WheelArray};
 
 use super::FigureSet;
 use super::tables::{self, Comparison};

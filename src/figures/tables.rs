@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use righting_maneuver::file::{System, SystemReference};
-use righting_maneuver::power::{Accounting, PAPER_EFFICIENCY};
-use righting_maneuver::{Envelopes, PowerProfile};
+use righting_analysis::power::{Accounting, PAPER_EFFICIENCY};
+use righting_analysis::{Envelopes, PowerProfile};
 use righting_report::PowerTrade;
+use righting_scenario::file::{System, SystemReference};
 
 use super::paper::{Planned, SYSTEMS};
 

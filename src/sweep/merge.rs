@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::files;
 use righting_report::{open_loop_errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_scenario::file_io;
 use righting_sweep::{CaseStatus, Slews, Summary, SweepFolder, Table};
 
 use super::show;
@@ -35,7 +35,7 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
     let mut write = |name: &str, print: &dyn Fn(&mut (dyn Write + Send)) -> io::Result<()>| {
         let path = folder.path().join(name);
-        files::replace(&path, print)?;
+        file_io::replace(&path, print)?;
         files.push(path);
         Ok::<(), Failure>(())
     };

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::files;
+use righting_scenario::file_io;
 use righting_sweep::{Sweep, SweepError};
 
 use crate::failure::Failure;
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     std::fs::create_dir_all(&logs).map_err(|source| SweepError::Write { path: logs, source })?;
     let script = folder.join(SCRIPT);
     let text = script_of(arguments, &sweep, &program, &folder);
-    files::replace(&script, |writer| writer.write_all(text.as_bytes()))?;
+    file_io::replace(&script, |writer| writer.write_all(text.as_bytes()))?;
     let (script, program) = (quoted(&script), quoted(&program));
     let folder = quoted(&folder);
     output::print(&format!(

@@ -23,12 +23,12 @@ fn the_examples_of_the_readme_are_accepted() {
     let [scenario, system] = examples.as_slice() else { panic!("a scenario and a system") };
 
     let place = root().join("scenarios/readme.json");
-    righting_maneuver::Scenario::parse(&scenario.to_string(), &place).expect("accepted");
+    righting_scenario::Scenario::parse(&scenario.to_string(), &place).expect("accepted");
 
     let mut with_system = scenario.clone();
     with_system["system"] = system.clone();
     with_system["initial"]["joint_angles_deg"] = serde_json::json!([0, 0]);
-    righting_maneuver::Scenario::parse(&with_system.to_string(), &place).expect("accepted");
+    righting_scenario::Scenario::parse(&with_system.to_string(), &place).expect("accepted");
 }
 
 #[test]

@@ -11,8 +11,6 @@ mod envelope;
 mod export;
 mod figures;
 mod full_disk;
-#[path = "../../crates/maneuver/tests/support/json_schema.rs"]
-mod json_schema;
 mod kinds;
 mod library;
 mod machine;

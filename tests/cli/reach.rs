@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::json_schema::violation;
 use crate::program::{Run, files_in, folder_with, righting, small_detumble, small_slew};
+use righting_test_support::json_schema::violation;
 
 fn reach(folder: &std::path::Path, more: &[&str]) -> Run {
     righting(folder, &[&["reach", "scenario.json"], more].concat())

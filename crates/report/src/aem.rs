@@ -8,11 +8,10 @@ use std::fmt::Write;
 
 use jiff::SignedDuration;
 use jiff::civil::DateTime;
-use righting_maneuver::error::Mismatch;
-use righting_maneuver::{Node, Solution, Trajectory};
+use righting_results::{Node, Solution, Trajectory};
+use righting_scenario::error::Mismatch;
 
-use crate::ReportError;
-use crate::asked;
+use crate::{ReportError, asked};
 
 /// What a message says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! What a scenario asks for, in words and as an attitude.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
-use righting_maneuver::file::{ManeuverType, Scenario};
+use righting_scenario::file::{ManeuverType, Scenario};
 
 use crate::number::short;
 

@@ -1,13 +1,12 @@
 //! `attitude.svg`: how the base turns.
 
 use nalgebra::UnitQuaternion;
-use righting_maneuver::{Node, Solution, Trajectory};
+use righting_results::{Node, Solution, Trajectory};
 
-use crate::asked;
 use crate::figure::{Figure, heading};
 use crate::number::short;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
-use crate::style;
+use crate::{asked, style};
 
 const PANEL_SIZE: [f64; 2] = [620.0, 150.0];
 /// Below these heights a curve counts as constant.

@@ -1,8 +1,9 @@
 //! `clearances.svg`: how near links come to the base and to each other.
 
-use righting_maneuver::collision::Between;
-use righting_maneuver::histories::ClearanceHistory;
-use righting_maneuver::{Histories, Solution, Trajectory};
+use righting_analysis::Histories;
+use righting_analysis::histories::ClearanceHistory;
+use righting_results::{Solution, Trajectory};
+use righting_scenario::collision::Between;
 
 use crate::figure::{Figure, heading};
 use crate::number::short;

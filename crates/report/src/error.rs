@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use righting_maneuver::error::Mismatch;
+use righting_scenario::error::Mismatch;
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A file could not be written.
     #[error(transparent)]
-    File(#[from] righting_maneuver::Error),
+    File(#[from] righting_scenario::Error),
     /// A value is not one that the format of an export takes.
     #[error("{keyword}: {mismatch}")]
     Value {

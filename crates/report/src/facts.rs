@@ -1,7 +1,7 @@
 //! The numbers that sum a plan up, as pages show them.
 
-use righting_maneuver::file::ManeuverType;
-use righting_maneuver::{Check, Sense, Solution, Trajectory};
+use righting_results::{Check, Sense, Solution, Trajectory};
+use righting_scenario::file::ManeuverType;
 use serde::Serialize;
 
 use crate::number::short;

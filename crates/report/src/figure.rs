@@ -1,11 +1,10 @@
 //! A page of panels over one horizontal axis.
 
-use righting_maneuver::Solution;
+use righting_results::Solution;
 
-use crate::asked;
 use crate::panel::{Panel, Placement};
-use crate::style;
 use crate::svg::{Anchor, Svg};
+use crate::{asked, style};
 
 /// Panels in a grid, row by row, sharing one horizontal axis.
 pub(crate) struct Figure {

@@ -1,7 +1,7 @@
 //! `joints.svg`: what the arm does.
 
-use righting_maneuver::file::{Link, Scenario, SystemReference};
-use righting_maneuver::{Solution, Trajectory};
+use righting_results::{Solution, Trajectory};
+use righting_scenario::file::{Link, Scenario, SystemReference};
 
 use crate::figure::{Figure, heading};
 use crate::number::short;

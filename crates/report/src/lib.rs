@@ -1,14 +1,14 @@
 //! Figures, pages, summaries and exports of solved maneuvers.
 //!
-//! Everything here reads results, a [`Solution`](righting_maneuver::Solution) with its
-//! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
+//! Everything here reads results, a [`Solution`](righting_results::Solution) with its
+//! [`Trajectory`](righting_results::Trajectory), and computes none: what a figure shows is what the
 //! files hold.
 //!
 //! ```no_run
 //! use std::path::Path;
 //!
 //! let folder = Path::new("out/demo");
-//! let plan = righting_maneuver::verify_directory(folder)?;
+//! let plan = righting_verifier::verify_directory(folder)?;
 //! let figure = righting_report::attitude_svg(&plan.solution, &plan.trajectory);
 //! righting_report::FigureWriter::svg().write(folder, "attitude.svg", &figure)?;
 //! print!("{}", righting_report::verification_summary(&plan.solution));

@@ -1,7 +1,8 @@
 //! `momentum.svg`: what the arm takes from the base, and that the sum stays.
 
 use nalgebra::Vector3;
-use righting_maneuver::{Histories, Solution, Trajectory};
+use righting_analysis::Histories;
+use righting_results::{Solution, Trajectory};
 
 use crate::figure::{Figure, heading};
 use crate::number::short;

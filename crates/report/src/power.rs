@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
-use righting_maneuver::power::{Accounting, Instant};
-use righting_maneuver::{PowerProfile, Solution, WheelArray};
+use righting_analysis::PowerProfile;
+use righting_analysis::power::{Accounting, Instant};
+use righting_results::Solution;
+use righting_scenario::WheelArray;
 
 use crate::figure::{Figure, heading};
 use crate::number::short;

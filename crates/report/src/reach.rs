@@ -1,14 +1,13 @@
 //! `reach.svg`: what each tried duration or angle costs, and what it misses.
 
-use righting_maneuver::file::Scenario;
-use righting_maneuver::reach::{Quantity, Reach, Try};
-use righting_maneuver::verifier::ATTITUDE_ERROR;
+use righting_planner::reach::{Quantity, Reach, Try};
+use righting_scenario::file::Scenario;
+use righting_verifier::ATTITUDE_ERROR;
 
-use crate::asked;
 use crate::axis::Range;
 use crate::number::short;
-use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
+use crate::{asked, style};
 
 const SIZE: [f64; 2] = [620.0, 190.0];
 const DOT_RADIUS: f64 = 3.6;

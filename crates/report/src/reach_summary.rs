@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_maneuver::file::Scenario;
-use righting_maneuver::reach::{Quantity, Reach, StartedFrom, Try};
+use righting_planner::reach::{Quantity, Reach, StartedFrom, Try};
+use righting_scenario::file::Scenario;
 
 use crate::asked;
 use crate::number::short;

@@ -4,8 +4,8 @@ mod common;
 
 use std::path::PathBuf;
 
-use righting_maneuver::Status;
 use righting_report::{status_phrase, summary, verification_summary};
+use righting_results::Status;
 
 #[test]
 fn a_verified_slew_says_asked_reached_proven_and_where() {

@@ -1,7 +1,7 @@
 //! One dimension of a sweep, checked: fields that change together.
 
-use righting_maneuver::Error;
-use righting_maneuver::json::{Place, shown};
+use righting_scenario::Error;
+use righting_scenario::json::{Place, shown};
 use serde_json::{Value, json};
 
 use crate::field_path::FieldPath;

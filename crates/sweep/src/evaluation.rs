@@ -4,10 +4,11 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use righting_maneuver::{
-    Plan, Scenario, Status, Terminal, Trajectory, fly, plan_with_threads, verify,
-};
 use righting_ocp::Control;
+use righting_planner::{Plan, plan_with_threads};
+use righting_results::{Status, Terminal, Trajectory};
+use righting_scenario::Scenario;
+use righting_verifier::{fly, verify};
 use serde_json::Value;
 
 use crate::outcome::{CaseStatus, Flown, Outcome, Trouble};

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
-use righting_maneuver::Error;
-use righting_maneuver::envelope::fibonacci;
-use righting_maneuver::json::{Bounds, Place, shown};
+use righting_analysis::envelope::fibonacci;
+use righting_scenario::Error;
+use righting_scenario::json::{Bounds, Place, shown};
 use serde_json::{Value, json};
 
 use crate::draw::Draws;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use righting_maneuver::json::{Bounds, Document, FileKind, Place, shown};
-use righting_maneuver::{Error, Scenario};
+use righting_scenario::json::{Bounds, Document, FileKind, Place, shown};
+use righting_scenario::{Error, Scenario};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
