@@ -25,6 +25,8 @@ const LEAST_SIZE: f64 = 10.0;
 /// After so many line searches in a row whose last rejection was due to the filter it is emptied
 /// (W&B section 3.2; option `filter_reset_trigger`).
 const FILTER_RESET_TRIGGER: usize = 5;
+/// So often at most (option `max_filter_resets`).
+const MOST_FILTER_RESETS: usize = 5;
 /// Rounding errors of φ and θ, in units of their last place: smaller differences tell nothing. W&B
 /// relax their tests by as much.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
@@ -54,6 +56,8 @@ pub(crate) struct Filter {
     rejected_last: bool,
     /// Line searches in a row of which that is true.
     rejections: usize,
+    /// How often they have emptied it.
+    resets: usize,
 }
 
 impl Filter {
@@ -107,8 +111,9 @@ impl Filter {
         }
         if self.rejected_last {
             self.rejections += 1;
-            if self.rejections >= FILTER_RESET_TRIGGER {
+            if self.rejections >= FILTER_RESET_TRIGGER && self.resets < MOST_FILTER_RESETS {
                 self.reset();
+                self.resets += 1;
             }
         } else {
             self.rejections = 0;
@@ -158,4 +163,75 @@ fn sufficient_progress(before: &Measures, trial: &Measures) -> bool {
 /// a ≤ b up to the rounding of numbers of this size.
 fn at_most(a: f64, b: f64, size: f64) -> bool {
     a - b <= ROUNDING * size.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measures(violation: f64, barrier: f64) -> Measures {
+        Measures { violation, barrier }
+    }
+
+    fn reference(violation: f64, barrier: f64, slope: f64) -> ReferencePoint {
+        ReferencePoint { measures: measures(violation, barrier), slope }
+    }
+
+    #[test]
+    fn near_feasibility_a_promising_step_has_to_descend() {
+        let mut filter = Filter::default();
+        let feasible = reference(0.0, 1.0, -1.0);
+        assert!(filter.accepts(&feasible, 1.0, &measures(1e-6, 0.5)));
+        // Less violation does not make up for a barrier function that grows.
+        assert!(!filter.accepts(&feasible, 1.0, &measures(0.0, 1.1)));
+        // Far from feasibility either is progress enough.
+        let infeasible = reference(10.0, 1.0, -1.0);
+        assert!(filter.accepts(&infeasible, 1.0, &measures(9.0, 2.0)));
+        assert!(filter.accepts(&infeasible, 1.0, &measures(10.0, 0.5)));
+        assert!(!filter.accepts(&infeasible, 1.0, &measures(10.0, 1.0)));
+    }
+
+    #[test]
+    fn what_a_step_came_from_dominates_later_points_unless_it_descended() {
+        let mut filter = Filter::default();
+        let start = reference(1.0, 0.0, 0.0);
+        filter.augment(&start, 1.0, &measures(0.5, 1.0));
+        let later = reference(2.0, 10.0, 0.0);
+        assert!(!filter.accepts(&later, 1.0, &measures(1.5, 5.0)));
+        assert!(filter.accepts(&later, 1.0, &measures(0.9, 5.0)));
+
+        let mut filter = Filter::default();
+        filter.augment(&reference(1e-9, 0.0, -1.0), 1.0, &measures(1e-9, -0.5));
+        assert!(filter.accepts(&later, 1.0, &measures(1.5, 5.0)));
+    }
+
+    #[test]
+    fn five_rejections_in_a_row_empty_the_filter_five_times_at_most() {
+        let mut filter = Filter::default();
+        let later = reference(2.0, 10.0, 0.0);
+        let (dominated, accepted) = (measures(1.5, 5.0), measures(0.5, 5.0));
+        for resets in 0..=MOST_FILTER_RESETS {
+            filter.augment(&reference(1.0, 0.0, 0.0), 1.0, &accepted);
+            for _ in 0..FILTER_RESET_TRIGGER {
+                assert!(!filter.accepts(&later, 1.0, &dominated));
+                assert!(filter.accepts(&later, 1.0, &accepted));
+            }
+            let is_empty = filter.accepts(&later, 1.0, &dominated);
+            assert_eq!(is_empty, resets < MOST_FILTER_RESETS, "{resets}");
+        }
+    }
+
+    #[test]
+    fn steps_shrink_until_neither_measure_could_improve() {
+        let mut filter = Filter::default();
+        let ascent = reference(1.0, 0.0, 1.0);
+        assert_eq!(filter.least_step(&ascent), ALPHA_MIN_FRACTION * GAMMA_THETA);
+        let descent = reference(1.0, 0.0, -1.0);
+        assert_eq!(filter.least_step(&descent), ALPHA_MIN_FRACTION * GAMMA_PHI);
+        // Within θ_min the switching condition counts as well.
+        assert!(filter.accepts(&descent, 1.0, &measures(0.5, 0.0)));
+        let nearly = reference(1e-9, 0.0, -1.0);
+        let expected = ALPHA_MIN_FRACTION * 1e-9_f64.powf(S_THETA).min(GAMMA_PHI * 1e-9);
+        assert_eq!(filter.least_step(&nearly), expected);
+    }
 }

@@ -114,7 +114,7 @@ impl InertiaCorrection {
     fn larger(&self, primal: f64) -> Result<f64, FailureReason> {
         let larger = if primal == 0.0 {
             if self.last == 0.0 { self.first } else { self.least.max(REDUCTION * self.last) }
-        } else if self.last == 0.0 || 1e5 * self.last < primal {
+        } else if self.last == 0.0 {
             FIRST_GROWTH * primal
         } else {
             GROWTH * primal

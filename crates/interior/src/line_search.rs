@@ -19,7 +19,6 @@ const REDUCTION: f64 = 0.5;
 const TINY_STEP: f64 = 10.0 * f64::EPSILON;
 /// … and those of the multipliers below this (option `tiny_step_y_tol`).
 const TINY_STEP_OF_MULTIPLIERS: f64 = 1e-2;
-const TINY_STEP_VIOLATION: f64 = 1e-4;
 
 /// The part of a direction that was taken.
 #[derive(Debug, Clone, Copy)]
@@ -200,9 +199,12 @@ impl LineSearch {
     }
 }
 
-/// Whether the direction is lost in the rounding of the variables.
+/// Whether the direction is lost in the rounding of the variables, at a point that the termination
+/// test would call feasible (option `constr_viol_tol`). At any other a direction that does not
+/// reduce the violation is nothing to accept unseen.
 fn is_tiny<P: Problem + ?Sized, L: ?Sized>(state: &State<'_, P, L>) -> bool {
     let point = &state.iterate.point;
     let relative = |(step, w): (&f64, &f64)| step.abs() <= TINY_STEP * (1.0 + w.abs());
-    point.violation <= TINY_STEP_VIOLATION && state.direction.w.iter().zip(&point.w).all(relative)
+    point.violation <= state.options.constr_viol_tol
+        && state.direction.w.iter().zip(&point.w).all(relative)
 }
