@@ -4,7 +4,7 @@ mod common;
 
 use common::support::assert_close;
 use common::{fast, ipopt, own};
-use righting_interior::GivesUp;
+use righting_interior::{FailureReason, InteriorError};
 use righting_ipopt::*;
 
 const VARIABLES: usize = 7;
@@ -173,8 +173,11 @@ fn random_programs_are_solved_in_the_same_iterations() {
         let ipopt = ipopt.unwrap();
         regularized += ours.iter().filter(|iteration| iteration.regularization > 0.0).count();
         let own = match own {
-            Ok(solved) => solved.solution,
-            Err(GivesUp::NeedsRestoration | GivesUp::NoStep) => {
+            Ok(solution) => solution,
+            Err(InteriorError {
+                reason: FailureReason::RestorationNeeded | FailureReason::StepComputation,
+                ..
+            }) => {
                 given_up += 1;
                 continue;
             }

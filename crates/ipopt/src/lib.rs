@@ -113,5 +113,6 @@ pub use righting_nlp::{
     EvaluationTiming, Factorization, FixedVariables, Hessian, Iteration, LinearSolver,
     LinearSolverError, LinearSolverTiming, MatrixName, MuStrategy, MultiplierInitialization,
     Multipliers, NlpError, NlpScaling, NlpSolution, OptionRange, OptionValue, Options,
-    PivotTolerances, Problem, Scaling, Start, Status, Tally, Timing, TripletStructure, VectorName,
+    PivotTolerances, Problem, ReducedHessian, Scaling, Start, Status, Tally, Timing,
+    TripletStructure, VectorName,
 };

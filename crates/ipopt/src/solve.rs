@@ -224,6 +224,7 @@ impl Point {
             g: self.g,
             multipliers: self.multipliers,
             iterations: last_iteration.map_or(0, |last| last.iteration),
+            reduced_hessian: None,
             last_iteration,
             timing,
         }

@@ -78,6 +78,7 @@ mod iteration;
 mod linear_solver;
 mod options;
 mod problem;
+mod reduced_hessian;
 mod scaling;
 mod solution;
 mod start;
@@ -97,6 +98,7 @@ pub use options::{
     OptionValue, Options,
 };
 pub use problem::{Dimensions, EvaluationError, Problem};
+pub use reduced_hessian::ReducedHessian;
 pub use scaling::Scaling;
 pub use solution::NlpSolution;
 pub use start::{Multipliers, Start};

@@ -1,4 +1,4 @@
-use crate::{Iteration, Multipliers, Start, Status, Timing};
+use crate::{Iteration, Multipliers, ReducedHessian, Start, Status, Timing};
 
 /// Where a solve ended, however it did.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,8 @@ pub struct NlpSolution {
     /// By how much x and g(x) violate their bounds at most, unscaled. Bounds are relaxed a
     /// little before a solve, see [`Options::bound_relax_factor`](crate::Options::bound_relax_factor).
     pub constraint_violation: f64,
+    /// How the Lagrangian curves here along the constraints, if the optimizer looked.
+    pub reduced_hessian: Option<ReducedHessian>,
     /// The last iteration, if there was any.
     pub last_iteration: Option<Iteration>,
     /// Where the time went.

@@ -1,7 +1,9 @@
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use righting_interior::{GivesUp, Solved};
-use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
+use righting_interior::InteriorError;
+use righting_ipopt::{
+    Control, Iteration, Multipliers, Options, ReducedHessian, SolveError, Status,
+};
 
 use crate::error::OcpError;
 use crate::kkt::{NodeDims, StageDims, StageKkt};
@@ -173,21 +175,18 @@ impl MultipleShooting<'_> {
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
         given_up: &mut Vec<Attempt>,
     ) -> Option<Solution> {
-        let clock = Instant::now();
         let mut history = Vec::new();
         let options = Options { fast_step_computation: true, ..options.clone() };
         let record = recording(&mut history, on_iteration);
-        let outcome: Result<Solved, GivesUp> =
-            righting_interior::solve(self, &options, start, stage, record);
-        match outcome {
-            Ok(Solved { solution, curves_upwards }) => {
+        match righting_interior::solve(self, &options, start, stage, record) {
+            Ok(solution) => {
+                let curves_upwards =
+                    solution.reduced_hessian == Some(ReducedHessian::PositiveDefinite);
                 let used = (Optimizer::Interior, UsedLinearSolver::Stage);
                 Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
             }
-            Err(reason) => {
-                let iterations = history.last().map_or(0, |last| last.iteration);
-                let optimizer = Optimizer::Interior;
-                given_up.push(self.given_up(optimizer, &reason, iterations, clock.elapsed()));
+            Err(InteriorError { reason, iterations, time }) => {
+                given_up.push(self.given_up(Optimizer::Interior, &reason, iterations, time));
                 None
             }
         }

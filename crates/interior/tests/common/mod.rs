@@ -4,7 +4,7 @@
 #[path = "../../../ipopt/tests/support/mod.rs"]
 pub mod support;
 
-use righting_interior::{GivesUp, Solved};
+use righting_interior::InteriorError;
 use righting_ipopt::*;
 
 /// Every iteration, and the end.
@@ -29,7 +29,11 @@ pub fn ipopt(
     (iterations, outcome)
 }
 
-pub fn own(mut problem: impl Problem, options: &Options, start: &Start) -> Run<Solved, GivesUp> {
+pub fn own(
+    mut problem: impl Problem,
+    options: &Options,
+    start: &Start,
+) -> Run<NlpSolution, InteriorError> {
     let mut iterations = Vec::new();
     let mut solver = BunchKaufman::default();
     let outcome =

@@ -1,14 +1,21 @@
-//! What the method leaves to Ipopt.
+//! What the method leaves to Ipopt, and what it says then.
 
 mod common;
 
+use std::time::Duration;
+
 use common::support::hock_schittkowski::*;
 use common::{fast, own};
-use righting_interior::GivesUp;
+use righting_interior::FailureReason;
 use righting_ipopt::*;
 
-fn outcome(problem: impl Problem, options: &Options, x: &[f64]) -> Result<NlpSolution, GivesUp> {
-    own(problem, options, &Start::at(x.to_vec())).1.map(|solved| solved.solution)
+fn outcome(
+    problem: impl Problem,
+    options: &Options,
+    x: &[f64],
+) -> Result<NlpSolution, FailureReason> {
+    let outcome = own(problem, options, &Start::at(x.to_vec())).1;
+    outcome.map_err(|error| error.reason)
 }
 
 /// min x₀² + x₁²  with  x₀ + x₁² = level, −1 ≤ x₀ ≤ 1 and x₁ within these bounds.
@@ -73,7 +80,10 @@ impl Problem for Parabola {
 fn infeasible_problems_are_left_to_the_restoration_phase() {
     let problem = Parabola::new(3.0, (-1.0, 1.0));
     let found = outcome(problem, &fast(), &[0.5, 0.5]);
-    assert!(matches!(found, Err(GivesUp::NeedsRestoration | GivesUp::NoStep)), "{found:?}");
+    assert!(
+        matches!(found, Err(FailureReason::RestorationNeeded | FailureReason::StepComputation)),
+        "{found:?}"
+    );
     // With a feasible level the same problem is solved.
     let solution = outcome(Parabola::new(1.5, (-1.0, 1.0)), &fast(), &[0.5, 0.5]).unwrap();
     assert_eq!(solution.status, Status::Solved);
@@ -81,11 +91,23 @@ fn infeasible_problems_are_left_to_the_restoration_phase() {
 }
 
 #[test]
+fn the_error_says_how_far_it_came() {
+    let start = Start::at(vec![0.5, 0.5]);
+    let (seen, outcome) = own(Parabola::new(3.0, (-1.0, 1.0)), &fast(), &start);
+    let error = outcome.unwrap_err();
+    assert!(error.iterations > 0, "{error}");
+    assert_eq!(error.iterations, seen.last().unwrap().iteration);
+    assert!(error.time > Duration::ZERO);
+    let expected = format!("{}, after {} iterations", error.reason, error.iterations);
+    assert_eq!(error.to_string(), expected);
+}
+
+#[test]
 fn so_are_fixed_variables_and_time_limits() {
     let found = outcome(Parabola::new(0.5, (0.5, 0.5)), &fast(), &[0.5, 0.5]);
-    assert!(matches!(found, Err(GivesUp::FixedVariable { index: 1 })), "{found:?}");
+    assert!(matches!(found, Err(FailureReason::FixedVariable { index: 1 })), "{found:?}");
     let found = outcome(Dense(Hs006), &Options { max_cpu_time: 1.0, ..fast() }, Hs006::START);
-    assert!(matches!(found, Err(GivesUp::Unsupported("a time limit"))), "{found:?}");
+    assert!(matches!(found, Err(FailureReason::Unsupported("a time limit"))), "{found:?}");
 }
 
 #[test]
@@ -105,7 +127,7 @@ fn every_option_is_followed_or_refused() {
         Options { extra: vec![("recalc_y".into(), OptionValue::Text("yes".into()))], ..fast() },
     ] {
         let why = refused(options);
-        assert!(matches!(why, GivesUp::Unsupported(_)), "{why:?}");
+        assert!(matches!(why, FailureReason::Unsupported(_)), "{why:?}");
     }
     let why = refused(Options { tolerance: -1.0, ..fast() });
     assert!(why.to_string().contains("tolerance"), "{why}");
@@ -115,20 +137,20 @@ fn every_option_is_followed_or_refused() {
 fn a_start_that_does_not_fit_or_is_no_number_is_refused() {
     for x in [&[1.0][..], &[1.0, f64::NAN, 1.0, 1.0], &[1.0; 5]] {
         let found = outcome(Dense(Hs071), &fast(), x);
-        assert!(matches!(found, Err(GivesUp::Invalid(_))), "{found:?}");
+        assert!(matches!(found, Err(FailureReason::Invalid(_))), "{found:?}");
     }
     let nan =
         Multipliers { constraints: vec![0.0, f64::NAN], lower: vec![0.0; 4], upper: vec![0.0; 4] };
     let start = Start { x: Hs071::START.to_vec(), multipliers: Some(nan) };
-    let (_, found) = own(Dense(Hs071), &fast(), &start);
-    assert!(matches!(found, Err(GivesUp::Invalid(_))), "{found:?}");
+    let found = own(Dense(Hs071), &fast(), &start).1.map_err(|error| error.reason);
+    assert!(matches!(found, Err(FailureReason::Invalid(_))), "{found:?}");
 }
 
 #[test]
 fn derivatives_and_steps_that_are_no_numbers_end_it() {
     let problem = Parabola { is_nan: true, ..Parabola::new(0.5, (-1.0, 1.0)) };
     let found = outcome(problem, &fast(), &[0.5, 0.5]);
-    assert!(matches!(found, Err(GivesUp::Undefined)), "{found:?}");
+    assert!(matches!(found, Err(FailureReason::Undefined)), "{found:?}");
 
     /// Right about everything but the last unknown of a solution.
     struct Blind(BunchKaufman);
@@ -149,5 +171,6 @@ fn derivatives_and_steps_that_are_no_numbers_end_it() {
     let found = righting_interior::solve(&mut Dense(Hs071), &fast(), &start, &mut solver, |_| {
         Control::Continue
     });
-    assert!(matches!(found, Err(GivesUp::NoStep)), "{found:?}");
+    let error = found.unwrap_err();
+    assert!(matches!(error.reason, FailureReason::StepComputation), "{error}");
 }
