@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-slurm bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-slurm bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -10,11 +10,17 @@ demo: setup
 test:
 	@scripts/setup.sh test
 	cargo test --workspace --locked
+	# The bindings again, linked to Ipopt instead of opening it.
+	cargo test -p righting-ipopt-sys --no-default-features --locked
 
 # Starts Slurm's daemons, so not part of `test`: as root, with Debian's slurmctld and slurmd.
 test-slurm: setup
 	cargo build --release --locked
 	scripts/test-slurm.sh
+
+# The same on Debian 13, in a root of its own: as root, with debootstrap.
+test-debian13:
+	scripts/test-debian13.sh
 
 # The paper's figures and tables, with its numbers beside ours: docs/paper.md.
 paper: setup

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use righting_ipopt::LoadError;
 use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
 use righting_results::{Solution, Status};
@@ -77,12 +78,15 @@ pub enum Failure {
     /// Stdout does not take what is printed.
     #[error("cannot print results: {0}")]
     Stdout(io::Error),
-    /// The machine lacks something.
+    /// The machine lacks something, as its diagnosis says.
     #[error("not ready to solve: {problem}")]
     NotReady {
         /// What, and what to do about it.
-        problem: &'static str,
+        problem: String,
     },
+    /// There is no optimizer.
+    #[error("not ready to solve: {0}")]
+    NoOptimizer(#[from] LoadError),
     /// The optimizer ended without a plan.
     #[error("no acceptable plan: {}", status_phrase(*status))]
     NoPlan {
@@ -146,6 +150,7 @@ impl Failure {
             | Self::NotShown { .. }
             | Self::Stdout(_)
             | Self::NotReady { .. }
+            | Self::NoOptimizer(_)
             | Self::NotSearched(_) => 2,
             Self::NoPlan { .. } | Self::NotPlanned(_) | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,

@@ -4,7 +4,6 @@
 //! those of [`failure::Failure`].
 #![forbid(unsafe_code)]
 
-mod blas;
 mod build;
 mod completions;
 mod doctor;
@@ -15,6 +14,7 @@ mod figures;
 mod hint;
 mod interrupt;
 mod manpages;
+mod optimizer;
 mod output;
 mod output_folder;
 mod plan_folder;
@@ -77,7 +77,6 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    blas::use_one_thread();
     let command = Arguments::parse().command;
     let json = command.prints_json();
     if json {

@@ -17,6 +17,7 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats};
 use crate::interrupt::Interrupt;
+use crate::optimizer;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::solve::{Shown, Times, assemble, write};
@@ -175,6 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ..defaults
     };
     let writer = arguments.formats.writer()?;
+    optimizer::load()?;
     let folder = match &arguments.out {
         Some(out) => Some(OutputFolder::open(out)?),
         None => None,

@@ -23,7 +23,7 @@ use crate::interrupt::Interrupt;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
 use crate::warm_start::WarmStart;
-use crate::{build, output, scenario_input};
+use crate::{build, optimizer, output, scenario_input};
 
 /// Plan the maneuver of a scenario, verify the plan and write it to a folder.
 #[derive(Args)]
@@ -78,6 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, None) => WarmStart::default(),
     };
     let writer = arguments.formats.writer()?;
+    optimizer::load()?;
     let folder = OutputFolder::open(&arguments.out)?;
 
     let progress = Progress::start();
@@ -230,7 +231,7 @@ fn versions(plan: &Plan) -> Versions {
     let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
     Versions {
         righting: build::VERSION.to_owned(),
-        ipopt: found.ipopt.to_owned(),
+        ipopt: found.ipopt.clone(),
         optimizer: plan.optimizer,
         linear_solver: match plan.linear_solver {
             UsedLinearSolver::Stage => "stage".to_owned(),

@@ -16,6 +16,7 @@ use righting_sweep::{Shard, SweepError, SweepFolder, worker};
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::optimizer;
 use crate::output_folder::OutputFolder;
 use crate::plan_folder;
 
@@ -110,6 +111,7 @@ fn run_whole(whole: &Whole) -> Result<(), Failure> {
 pub fn work() -> Result<(), Failure> {
     // A terminal's Ctrl-C reaches every process; it is the parent that ends its workers.
     let _first_is_not_for_us = Interrupt::watch();
+    optimizer::load()?;
     worker::serve().map_err(|error| match error.kind() {
         io::ErrorKind::BrokenPipe => Failure::Interrupted,
         _ => Failure::Stdout(error),

@@ -1,4 +1,6 @@
 use crate::{LinearSolverError, NlpError, OptionValue};
+use righting_ipopt_sys::LoadError;
+use righting_ipopt_sys::hsl::SlotError;
 use thiserror::Error;
 
 /// Why a solve was not begun, or came to nothing.
@@ -34,12 +36,15 @@ pub enum SolveError {
     /// A solve was started from within a solve on the same thread.
     #[error("a solve cannot be started from within another one")]
     Nested,
-    /// The installed Ipopt has no slot for a linear solver of one's own.
-    #[error(
-        "Ipopt {} calls no linear solver but its own; 3.11 to 3.13 do",
-        righting_ipopt_sys::VERSION
-    )]
-    NoLinearSolverSlot,
+    /// There is no Ipopt, or another one.
+    #[error(transparent)]
+    NotLoaded(#[from] LoadError),
+    /// This Ipopt calls no linear solver but its own.
+    #[error("Ipopt cannot be given a linear solver of one's own")]
+    NoLinearSolverSlot(#[source] SlotError),
+    /// It was given one, but did not call it.
+    #[error("Ipopt was given a linear solver, but does not call it")]
+    SlotNotCalled,
     /// The linear solver refused the structure of the system.
     #[error("the linear solver refuses the system")]
     LinearSolver(#[source] LinearSolverError),

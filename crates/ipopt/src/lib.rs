@@ -70,8 +70,15 @@
 //! # Linear solvers
 //!
 //! [`solve`] lets Ipopt use MUMPS. [`solve_with`] plugs in a [`LinearSolver`] of the caller's, which
-//! may know the structure of the problem: Ipopt 3.11 to 3.13 call MA57 through function pointers
-//! that a program may set, and that is where it is called from.
+//! may know the structure of the problem. To Ipopt it is MA57: up to 3.13 it calls MA57 through
+//! function pointers that a program may set, from 3.14 on through a shared library that its option
+//! `hsllib` names, here a page of memory that passes the calls on.
+//!
+//! # Loading
+//!
+//! With the feature `dlopen`, which is on by default, Ipopt's library is opened by the first solve:
+//! a program that does not solve runs without it, and does not wait for it. Where it is missing,
+//! every solve is [`SolveError::NotLoaded`].
 //!
 //! # Threads
 //!
@@ -85,8 +92,7 @@
 //! timings include the other threads.
 //!
 //! A threaded BLAS makes MUMPS slower on the small fronts of these problems and its rounding
-//! depends on the number of threads. It reads its environment once, when it is loaded, so only
-//! whoever starts the process can choose: run with `OPENBLAS_NUM_THREADS=1`.
+//! depends on the number of threads: a program calls [`use_one_blas_thread`] before it solves.
 //!
 //! # Panics and nesting
 //!
@@ -95,8 +101,10 @@
 //! is started from within a solve on the same thread is refused.
 
 mod callbacks;
+mod diagnosis;
 mod error;
 mod handle;
+mod iterate;
 mod libraries;
 mod options;
 mod slot;
@@ -104,8 +112,12 @@ mod solve;
 mod status;
 mod trap;
 
+pub use diagnosis::{Diagnosis, LinearSolverSlot, Mumps, diagnose};
 pub use error::SolveError;
-pub use libraries::{Library, LinearSolvers, Versions, versions};
+pub use iterate::{Iterate, Violations, current_iterate, current_violations};
+pub use libraries::{Library, Versions, versions};
+pub use righting_ipopt_sys::hsl::SlotError;
+pub use righting_ipopt_sys::{LoadError, use_one_blas_thread};
 pub use solve::{solve, solve_with};
 
 pub use righting_nlp::{

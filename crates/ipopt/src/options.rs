@@ -3,10 +3,11 @@
 use crate::{OptionValue, Options, SolveError};
 
 /// Options that this crate sets by itself, and why.
-const RESERVED: [(&str, &str); 8] = [
+const RESERVED: [(&str, &str); 9] = [
     ("option_file_name", "no file may change a solve"),
     ("sb", "Ipopt's banner belongs into no output"),
     ("linear_solver", "`solve` and `solve_with` choose it"),
+    ("hsllib", "`solve_with` makes the library"),
     ("linear_system_scaling", "it needs a solver that is not part of Ipopt"),
     ("ma57_pivtol", "`LinearSolver::pivot_tolerances` gives it"),
     ("ma57_pivtolmax", "`LinearSolver::pivot_tolerances` gives it"),

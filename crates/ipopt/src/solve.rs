@@ -1,5 +1,6 @@
 use crate::callbacks::{self, Session};
 use crate::handle::{Arrays, Handle};
+use crate::iterate::Iterates;
 use crate::options::validate;
 use crate::slot::{self, Report};
 use crate::status::{brings_functions, status};
@@ -8,6 +9,7 @@ use crate::{
     Control, Declarations, EvaluationTiming, Iteration, LinearSolver, Multipliers, NlpSolution,
     OptionValue, Options, PivotTolerances, Problem, SolveError, Start, Status, Timing,
 };
+use righting_ipopt_sys as sys;
 use std::cell::Cell;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -18,8 +20,8 @@ use std::time::Instant;
 /// solves with MUMPS.
 ///
 /// # Errors
-/// When the problem, the options or the start are not usable. However a solve ends that was begun
-/// is a [`Status`].
+/// When there is no Ipopt, or the problem, the options or the start are not usable. However a solve
+/// ends that was begun is a [`Status`].
 ///
 /// # Panics
 /// When `problem` or `on_iteration` does.
@@ -35,7 +37,7 @@ pub fn solve<P: Problem + ?Sized>(
 /// Solves with the linear solver given; otherwise as [`solve`], but waits for nobody.
 ///
 /// # Errors
-/// As [`solve`], and [`SolveError::NoLinearSolverSlot`] with Ipopt 3.14 or newer,
+/// As [`solve`], and [`SolveError::NoLinearSolverSlot`] where Ipopt cannot be given one,
 /// [`SolveError::LinearSolver`] when the solver refuses the system.
 ///
 /// # Panics
@@ -71,21 +73,23 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         let mut declarations = Declarations::of(self.problem)?;
         declarations.check_start(self.start)?;
 
+        let ipopt = sys::api()?;
         let mut point = Point::of(self.start, &declarations);
         let trap = Trap::default();
         let (status, report, last_iteration, timing) = {
             // Outlives the handle: freeing it frees what MUMPS holds.
             let _mumps = engine.lock();
             let clock = Instant::now();
-            let created = callbacks::create::<P, F>(&mut declarations);
+            let created = callbacks::create::<P, F>(ipopt, &mut declarations);
             // SAFETY: it was created just now.
-            let handle = unsafe { Handle::own(created)? };
+            let handle = unsafe { Handle::own(ipopt, created)? };
             self.configure(&handle, &engine, &declarations)?;
             handle.set_iteration_callback(Some(callbacks::iteration::<P, F>));
 
             let mut session = Session {
                 problem: &mut *self.problem,
                 on_iteration,
+                iterates: Iterates::of(ipopt, &handle, &declarations),
                 trap: &trap,
                 jacobian: &declarations.jacobian,
                 hessian: &declarations.hessian,
@@ -131,8 +135,11 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         match engine {
             Engine::Mumps => handle.set("linear_solver", &text("mumps"))?,
             Engine::Slot(solver) => {
-                slot::install()?;
+                let hsllib = slot::install()?;
                 handle.set("linear_solver", &text("ma57"))?;
+                if let Some(hsllib) = hsllib {
+                    handle.set("hsllib", &text(hsllib))?;
+                }
                 handle.set("linear_system_scaling", &text("none"))?;
                 // Equal tolerances tell Ipopt that there is nothing to raise.
                 let PivotTolerances { initial, largest } = solver

@@ -1,5 +1,4 @@
 //! A linear solver that panics.
-#![cfg(ipopt_ma57_slot)]
 
 mod support;
 

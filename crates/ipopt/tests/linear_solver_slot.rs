@@ -1,5 +1,4 @@
 //! Ipopt with a linear solver of one's own.
-#![cfg(ipopt_ma57_slot)]
 
 mod support;
 

@@ -86,13 +86,3 @@ fn a_solve_within_a_solve() {
     // And it is over afterwards.
     support::solve_from(&mut Dense(Hs006), Hs006::START, &Options::default());
 }
-
-#[cfg(not(ipopt_ma57_slot))]
-#[test]
-fn a_linear_solver_for_an_ipopt_that_takes_none() {
-    let mut own = BunchKaufman::default();
-    let go_on = |_: &Iteration| Control::Continue;
-    let outcome =
-        solve_with(&mut Dense(Hs006), &Options::default(), &at(Hs006::START), &mut own, go_on);
-    assert!(matches!(outcome, Err(SolveError::NoLinearSolverSlot)));
-}

@@ -3,7 +3,6 @@
 mod support;
 
 use righting_ipopt::*;
-#[cfg(ipopt_ma57_slot)]
 use support::hock_schittkowski::*;
 
 const THREADS: usize = 8;
@@ -37,7 +36,6 @@ fn with_mumps_one_after_the_other() {
     agree(|| solve(&mut Dense(Hs100), &options, &start(), |_| Control::Continue).unwrap());
 }
 
-#[cfg(ipopt_ma57_slot)]
 #[test]
 fn with_a_solver_each_at_once() {
     let options = Options::default();
@@ -48,7 +46,6 @@ fn with_a_solver_each_at_once() {
     });
 }
 
-#[cfg(ipopt_ma57_slot)]
 #[test]
 fn two_solves_with_the_slot_do_overlap() {
     // Each waits within its solve until the other is within its own.

@@ -142,7 +142,7 @@ impl MultipleShooting<'_> {
         let mut solution = match by_interior {
             Some(solution) => solution,
             None => match self.solve_by_ipopt(start, options, stage, on_iteration) {
-                Err(error @ (SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot))
+                Err(error @ (SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot(_)))
                     if retry =>
                 {
                     given_up.push(self.given_up(Optimizer::Ipopt, &error, 0, Duration::ZERO));

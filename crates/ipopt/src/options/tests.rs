@@ -32,10 +32,11 @@ fn documentation() -> HashMap<String, [String; 3]> {
     let text = |value: &str| OptionValue::Text(value.to_owned());
     let (mut lower, mut upper) = ([0.0], [1.0]);
     let null: *mut f64 = null_mut();
+    let ipopt = sys::api().unwrap();
     // SAFETY: one variable and its bounds; the solve ends before it calls anything, because it has
     // no start.
     unsafe {
-        let problem = sys::CreateIpoptProblem(
+        let problem = (ipopt.CreateIpoptProblem)(
             1,
             lower.as_mut_ptr(),
             upper.as_mut_ptr(),
@@ -51,15 +52,15 @@ fn documentation() -> HashMap<String, [String; 3]> {
             None,
             None,
         );
-        let handle = Handle::own(problem).unwrap();
+        let handle = Handle::own(ipopt, problem).unwrap();
         handle.quiet(0).unwrap();
         handle.set("print_options_documentation", &text("yes")).unwrap();
-        if cfg!(not(ipopt_ma57_slot)) {
+        if !sys::HAS_HSL_LOADER {
             handle.set("print_advanced_options", &text("yes")).unwrap();
         }
         handle.set("output_file", &text(file.to_str().unwrap())).unwrap();
         handle.set("file_print_level", &OptionValue::Integer(5)).unwrap();
-        sys::IpoptSolve(problem, null, null, null, null, null, null, null_mut());
+        (ipopt.IpoptSolve)(problem, null, null, null, null, null, null, null_mut());
     }
     parse(&std::fs::read_to_string(file).unwrap())
 }
@@ -81,7 +82,7 @@ fn defaults_are_those_of_ipopt() {
     let documentation = documentation();
     assert!(documentation.len() > 100);
     for (name, value) in Options::default().named_values() {
-        if !cfg!(ipopt_ma57_slot) && ALWAYS_PASSED.contains(&name) {
+        if !sys::HAS_HSL_LOADER && ALWAYS_PASSED.contains(&name) {
             continue;
         }
         let [_, printed, _] = &documentation[name];
