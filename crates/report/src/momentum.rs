@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use righting_maneuver::{Histories, Solution, Trajectory};
 
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel};
 use crate::style;
 
@@ -54,7 +54,7 @@ fn panel(
     Panel {
         heading: heading.to_owned(),
         axis_label,
-        note: format!("at most {}", short(largest)),
+        note: format!("at most {}", drawn(largest)),
         curves: components(vectors),
         least_span,
         ..Panel::default()
