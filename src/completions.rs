@@ -14,7 +14,6 @@ use crate::output;
 ///
 /// Fish: righting completions fish > ~/.config/fish/completions/righting.fish.
 #[derive(Args)]
-#[command(verbatim_doc_comment)]
 pub struct Arguments {
     /// The shell.
     #[arg(value_enum)]

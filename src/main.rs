@@ -39,7 +39,7 @@ use crate::output::Label;
 
 /// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
 #[derive(Parser)]
-#[command(name = NAME, version = build::VERSION, after_help = EXIT_CODES)]
+#[command(name = NAME, version = build::VERSION, after_help = exit_codes())]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -48,13 +48,19 @@ struct Arguments {
 /// Name of the program.
 const NAME: &str = "righting";
 
-const EXIT_CODES: &str = "\
-Exit codes:
-  0    done and verified
-  2    bad input or usage
-  3    no acceptable plan
-  4    a plan was found but failed its verification
-  130  interrupted";
+const EXIT_CODES: [(u8, &str); 5] = [
+    (0, "done and verified"),
+    (2, "bad input or usage"),
+    (3, "no acceptable plan"),
+    (4, "a plan was found but failed its verification"),
+    (130, "interrupted"),
+];
+
+/// The exit codes as the help lists them.
+fn exit_codes() -> String {
+    let rows = EXIT_CODES.map(|(code, meaning)| format!("\n  {code:<3}  {meaning}"));
+    format!("Exit codes:{}", rows.concat())
+}
 
 #[derive(Subcommand)]
 enum Command {

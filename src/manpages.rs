@@ -1,9 +1,11 @@
 //! `righting manpages`: the help of every command as manual pages.
 
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
+use clap_mangen::roff::{Roff, roman};
 
 use crate::failure::Failure;
 use crate::output;
@@ -38,8 +40,8 @@ fn write(
     let page = Man::new(command.clone()).source(source);
     let name = page.get_filename();
     let mut text = Vec::new();
-    page.render(&mut text).map_err(|source| righting_scenario::Error::Write {
-        file: Path::new(&name).to_owned(),
+    print(&page, command, &mut text).map_err(|source| righting_scenario::Error::Write {
+        file: folder.path().join(&name),
         source,
     })?;
     files.push(folder.write(&name, &text)?);
@@ -47,4 +49,24 @@ fn write(
         write(part, folder, files)?;
     }
     Ok(())
+}
+
+/// The sections of a page, in the order of manual pages; every command has the same exit codes.
+fn print(page: &Man, command: &Command, text: &mut Vec<u8>) -> io::Result<()> {
+    page.render_title(text)?;
+    page.render_name_section(text)?;
+    page.render_synopsis_section(text)?;
+    page.render_description_section(text)?;
+    page.render_options_section(text)?;
+    if command.has_subcommands() {
+        page.render_subcommands_section(text)?;
+    }
+    let mut status = Roff::new();
+    status.control("SH", ["EXIT STATUS"]);
+    for (code, meaning) in crate::EXIT_CODES {
+        status.control("TP", []);
+        status.text([roman(code.to_string())]);
+        status.text([roman(meaning)]);
+    }
+    status.to_writer(text)
 }

@@ -81,8 +81,8 @@ fn what_nothing_makes_possible_is_said() {
 fn options_are_checked() {
     let folder = folder_with(&small_slew());
     for (arguments, part) in [
-        (&["--resolution", "0"][..], "from 0.01 to 50"),
-        (&["--within", "nan"], "from 0 to 1000"),
+        (&["--resolution", "0"][..], ": expected a number from 0.01 to 50\n"),
+        (&["--within", "nan"], ": expected a number from 0 to 1000\n"),
         (&["--starts", "1001"], "0..=1000"),
         (&["--what", "mass"], "duration, angle"),
         (&["--control-weight", "-1"], "weights.control: found -1, expected a number from 0"),

@@ -142,7 +142,7 @@ fn value(keyword: &'static str, value: &str) -> Result<String, ReportError> {
 
 /// A comment of any text in printable ASCII.
 fn plain(comment: &str) -> String {
-    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg").replace('\u{2212}', "-");
+    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg");
     let is_plain = |&c: &char| c == ' ' || c.is_ascii_graphic();
     spelt.chars().filter(is_plain).take(LONGEST_VALUE).collect()
 }

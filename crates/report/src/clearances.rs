@@ -6,7 +6,7 @@ use righting_results::{Solution, Trajectory};
 use righting_scenario::collision::Between;
 
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
@@ -65,7 +65,7 @@ fn panel(heading: &str, mut histories: Vec<&ClearanceHistory>) -> Panel {
         axis_label: "Distance [m]",
         note: format!(
             "least margin {} m",
-            short(histories.first().map_or(f64::NAN, |h| margin(h)))
+            drawn(histories.first().map_or(f64::NAN, |h| margin(h)))
         ),
         curves: histories.iter().enumerate().map(curve).collect(),
         rules: histories

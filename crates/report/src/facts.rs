@@ -100,15 +100,14 @@ fn detumble_facts(solution: &Solution, trajectory: &Trajectory, rate: String) ->
     ]
 }
 
-/// Six significant digits with a true minus sign.
+/// Six significant digits.
 fn precise(value: f64) -> String {
-    let text = match value.abs() {
+    match value.abs() {
         size if (1e-2..1e4).contains(&size) => {
             format!("{value:.*}", (5.0 - size.log10().floor()) as usize)
         }
         _ => format!("{value:.5e}"),
-    };
-    text.replace('-', "\u{2212}")
+    }
 }
 
 /// The plan's limits at their worst places.

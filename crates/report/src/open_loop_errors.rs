@@ -2,7 +2,7 @@
 
 use crate::axis::Range;
 use crate::chart::{Chart, Labels};
-use crate::number::short;
+use crate::number::drawn;
 use crate::style;
 use crate::svg::Stroke;
 
@@ -20,9 +20,9 @@ pub fn open_loop_errors_svg(name: &str, errors_deg: &[f64]) -> Option<String> {
     let subtitle = format!(
         "{} plans flown open loop: half end within {}\u{b0}, 95 % within {}\u{b0}, all within {}\u{b0}",
         errors.len(),
-        short(median),
-        short(most),
-        short(last)
+        drawn(median),
+        drawn(most),
+        drawn(last)
     );
     let labels = Labels {
         title: name,

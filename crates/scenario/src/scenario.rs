@@ -349,7 +349,7 @@ fn check_momentum(
             ),
         )),
         (Maneuver::Detumble, None) if !turns => {
-            Err(place.missing("the angular rate to take out by a detumble"))
+            Err(place.missing("the angular rate that a detumble takes out"))
         }
         (Maneuver::Detumble, Some(_)) if !turns => {
             Err(place.refuse(value, "a vector that is not zero: a detumble takes it out"))

@@ -161,10 +161,8 @@ fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Erro
             let radius_m = radius_place.within(radius_m, RADIUS_M)?;
             Ok((multibody::Base { mass_kg, inertia_kg_m2 }, radius_m))
         }
-        (None, Some(_), None) => {
-            Err(radius_place
-                .missing("the radius of the keep-out sphere, as with any inertia_kg_m2"))
-        }
+        (None, Some(_), None) => Err(radius_place
+            .missing("the radius of the keep-out sphere, which goes with inertia_kg_m2")),
         (None, None, _) => {
             Err(cube_place.missing("the side of a cube, or inertia_kg_m2 with keep_out_radius_m"))
         }

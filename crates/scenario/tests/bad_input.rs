@@ -223,7 +223,11 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/collision/clearance_m", json!(-0.01), "a number from 0"),
         ("/collision/clearance_m", json!(1e308), "a number from 0"),
         ("/solver/formulation", json!("Full"), "did you mean \"full\"?"),
-        ("/solver/linear_solver", json!("ma57"), "\"auto\" or \"mumps\" or \"stage\""),
+        (
+            "/solver/linear_solver",
+            json!("ma57"),
+            "found \"ma57\", expected \"auto\", \"mumps\" or \"stage\"",
+        ),
         ("/solver/guess", json!("random"), "\"constant\" or \"auto\""),
         ("/solver/max_iterations", json!(0), "a whole number from 1"),
         ("/solver/max_iterations", json!(1e9), "a whole number from 1"),
@@ -300,7 +304,7 @@ fn fields_that_contradict_each_other_are_refused() {
                 ("/initial", json!({ "joint_angles_deg": [0, 0, 0, 0] })),
             ],
             "initial.angular_rate_deg_s",
-            "missing, expected the angular rate to take out",
+            "missing, expected the angular rate that a detumble takes out",
         ),
         (
             vec![("/initial/joint_rates_deg_s", json!([0, 0, 18, 0]))],

@@ -59,9 +59,8 @@ impl Dimension {
             if let Some(first) = variations.first()
                 && first.len() != variation.len()
             {
-                let settings = format!("{} settings", variation.len());
-                let allowed = format!("{}, as the first has", first.len());
-                return Err(place.refuse(settings, allowed));
+                let expected = format!("{} settings, as the first has", first.len());
+                return Err(place.refuse(variation.len(), expected));
             }
             variations.push(variation);
         }

@@ -49,20 +49,19 @@ impl Settings {
         const RULES: &str = "`values`, `grid`, `fibonacci`, `uniform`, `normal` or `directions`";
         let file::Dimension { values, grid, fibonacci, uniform, normal, directions, .. } =
             dimension;
-        let given = [
-            values.is_some(),
-            grid.is_some(),
-            fibonacci.is_some(),
-            uniform.is_some(),
-            normal.is_some(),
-            directions.is_some(),
+        let rules = [
+            ("`values`", values.is_some()),
+            ("`grid`", grid.is_some()),
+            ("`fibonacci`", fibonacci.is_some()),
+            ("`uniform`", uniform.is_some()),
+            ("`normal`", normal.is_some()),
+            ("`directions`", directions.is_some()),
         ];
-        match given.into_iter().filter(|&given| given).count() {
-            1 => {}
-            count => {
-                let found = if count == 0 { "none".to_owned() } else { format!("{count} of them") };
-                return Err(place.refuse(found, format!("one of {RULES}")));
-            }
+        let given: Vec<&str> =
+            rules.into_iter().filter_map(|(rule, is_given)| is_given.then_some(rule)).collect();
+        if given.len() != 1 {
+            let found = if given.is_empty() { "none".to_owned() } else { given.join(" and ") };
+            return Err(place.refuse(found, format_args!("one of {RULES}")));
         }
         let draws = |seed: u64| Draws::new(seed, field);
         if let Some(values) = values {

@@ -151,7 +151,7 @@ fn whatever_is_wrong_the_complaint_names_the_field() {
         ),
         (
             vary(json!({ "field": "maneuver.angle_deg", "values": [1], "fibonacci": 3 })),
-            "vary[0]: found 2 of them, expected",
+            "vary[0]: found `values` and `fibonacci`, expected",
             "one of",
         ),
         (
@@ -170,8 +170,8 @@ fn whatever_is_wrong_the_complaint_names_the_field() {
         (vary(json!({ "zip": [] })), "vary[0].zip: ", "at least one"),
         (
             vary(json!({ "zip": [angles(json!([1, 2])), { "field": "name", "values": ["a"] }] })),
-            "vary[0].zip[1]: found 1 settings, expected",
-            "2, as the first has",
+            "vary[0].zip[1]: found 1, expected",
+            "2 settings, as the first has",
         ),
         (
             sweep_of(json!([angles(json!([1])), angles(json!([2]))])),

@@ -103,7 +103,7 @@ fn a_folder_that_cannot_be_read_is_an_error_that_says_where() {
             json!("righting.solution/2"),
             "schema: found \"righting.solution/2\", expected",
         ),
-        ("/status", json!("done"), "status: found \"done\", expected \"solved\" or"),
+        ("/status", json!("done"), "status: found \"done\", expected \"solved\", \"acceptable\","),
         ("/iterations", json!(-1), "iterations: found -1, expected a whole number"),
         ("/terminal/attitude_error", json!("0"), "terminal.attitude_error: found \"0\", expected"),
         ("/scenario/horizon/steps", json!(0), "scenario.horizon.steps: found 0, expected"),

@@ -126,13 +126,17 @@ fn phrase(expected: &str) -> String {
         "u64" | "usize" => "a whole number from 0".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "an array".to_owned(),
+        _ if expected.starts_with("struct ") => "an object".to_owned(),
         _ => expected.to_owned(),
     }
 }
 
 fn alternatives(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    quoted.join(" or ")
+    match quoted.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => quoted.concat(),
+    }
 }
 
 #[derive(Clone, Copy)]
