@@ -23,15 +23,18 @@ impl Replay {
     pub fn from(start: State<f64>, scenario: &Scenario, trajectory: &Trajectory) -> Self {
         let model = &scenario.system().model;
         let horizon = scenario.horizon();
-        let mut integrator = DormandPrince::new();
         let mut x = start.to_vec();
+        let mut integrator = DormandPrince::new(x.len());
         let mut nodes = vec![start];
         for (k, interval) in trajectory.intervals().iter().enumerate() {
             let duration_s = horizon.time_s(k + 1) - horizon.time_s(k);
             let control = &interval.joint_accelerations_rad_s2;
-            x = integrator
-                .advance(&x, duration_s, |x| model.state_derivative(x, control))
-                .unwrap_or_else(|| vec![f64::NAN; x.len()]);
+            let followed = integrator.advance(&mut x, duration_s, |x, rate| {
+                rate.copy_from_slice(&model.state_derivative(x, control));
+            });
+            if !followed {
+                x.fill(f64::NAN);
+            }
             nodes.extend(State::from_slice(&x));
         }
         Self { nodes }
