@@ -89,5 +89,5 @@ pub use solution::{IterationRecord, Solution, Status, Terminal, Timing, UsedOpti
 pub use system_description::{JointLimits, SystemDescription};
 pub use trajectory::{Interval, Node, Trajectory};
 pub use verification::{Check, Sense, Verification};
-pub use verifier::{Verified, fly, verify, verify_directory};
+pub use verifier::{Verified, simulate, verify, verify_directory};
 pub use wheels::WheelArray;

@@ -67,19 +67,19 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     ledger.finish()
 }
 
-/// Flies a plan open loop: the joints do what its controls say, whatever the base does. The scenario
+/// Simulates a plan open loop: the joints do what its controls say, whatever the base does. The scenario
 /// may differ from the planned one in masses, lengths and start. What the end reaches, and the checks
 /// of that end.
 ///
 /// The motion is the second integration of [`verify`]; one that cannot be followed ends in NaN. A plan
 /// that does not fit the scenario's arm and grid does not pass.
-pub fn fly(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verification) {
+pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verification) {
     let mut ledger = Ledger::default();
     if !shape_fits(scenario, plan, &mut ledger) {
         return (Terminal::reached(scenario, plan), ledger.finish());
     }
-    let flown = Replay::from(scenario.initial().state(), scenario, plan);
-    let end = &flown.nodes()[plan.steps()];
+    let simulation = Replay::from(scenario.initial().state(), scenario, plan);
+    let end = &simulation.nodes()[plan.steps()];
     check_end(scenario, end, &mut ledger);
     (Terminal::of(scenario, end), ledger.finish())
 }

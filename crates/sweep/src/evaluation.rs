@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use righting_maneuver::{
-    Plan, Scenario, Status, Terminal, Trajectory, fly, plan_with_threads, verify,
+    Plan, Scenario, Status, Terminal, Trajectory, plan_with_threads, simulate, verify,
 };
 use righting_ocp::Control;
 use serde_json::Value;
@@ -100,7 +100,7 @@ impl Evaluator {
             Some(Err(outcome)) => return outcome.clone(),
             None => unreachable!("planned just now"),
         };
-        let (terminal, verification) = fly(scenario, plan);
+        let (terminal, verification) = simulate(scenario, plan);
         Outcome {
             status: CaseStatus::Flown(Flown::Flown),
             verified: verification.passed,
