@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::ledger::{Ledger, Worst};
+use super::model::State;
+use super::requirements::Requirements;
 use super::verify;
 use crate::error::Error;
 use crate::json::Place;
 use crate::outcome::objective;
 use crate::scenario::Scenario;
-use crate::solution::{SCHEMA, Solution, Terminal};
+use crate::solution::{SCHEMA, Solution};
 use crate::trajectory::Trajectory;
 
 /// Name of the solution file in a result folder.
@@ -71,7 +73,8 @@ fn check_claims(
     cost.at_most((found - solution.objective).abs(), REPORTED * found.abs().max(1e-9), None, None);
     ledger.add(cost);
 
-    let found = Terminal::reached(scenario, trajectory);
+    let end = State::of_node(trajectory.end());
+    let found = Requirements::new(scenario).goal.reached(&end);
     let claimed = &solution.terminal;
     let pairs = [
         (found.attitude_error, claimed.attitude_error),
