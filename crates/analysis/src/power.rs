@@ -119,7 +119,7 @@ impl PowerProfile {
                 return Err(ShapeError { what: what.to_owned(), found, needed });
             }
         }
-        let mut integrator = DormandPrince::new();
+        let mut integrator = DormandPrince::new(State::<f64>::dimension(model.joint_count()));
         let mut instants = Vec::with_capacity(QUADRATURE.len() * trajectory.steps());
         for (k, (node, interval)) in
             trajectory.nodes().iter().zip(trajectory.intervals()).enumerate()
@@ -207,9 +207,12 @@ fn within(
     let mut x = node.state().to_vec();
     let mut at = |(place, weight): (f64, f64)| {
         if place > reached {
-            x = integrator
-                .advance(&x, (place - reached) * length_s, |x| model.state_derivative(x, control))
-                .unwrap_or_else(|| vec![f64::NAN; x.len()]);
+            let followed = integrator.advance(&mut x, (place - reached) * length_s, |x, rate| {
+                rate.copy_from_slice(&model.state_derivative(x, control));
+            });
+            if !followed {
+                x.fill(f64::NAN);
+            }
             reached = place;
         }
         let state = State::from_slice(&x)?;

@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::finite_or_null::FiniteOrNull;
 
-/// Outcome of the independent check.
+/// Outcome of the independent check: by another model of the system and another integrator than the
+/// planner's.
 ///
-/// The first five numbers compare the trajectory with a second integration of the equations of
-/// motion from its first node and its controls alone.
+/// The first five numbers compare the trajectory with what that model and integrator make of its first
+/// node and its controls alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Verification {
     /// Whether every check passed.

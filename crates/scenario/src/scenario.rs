@@ -234,6 +234,14 @@ impl Scenario {
     pub fn resolved(&self) -> &file::Scenario {
         &self.resolved
     }
+
+    /// The system in [`resolved`](Self::resolved), where it stands inline.
+    pub fn resolved_system(&self) -> &file::System {
+        match &self.resolved.system {
+            SystemReference::Inline(system) => system,
+            SystemReference::File(_) => unreachable!("a checked scenario has its system inline"),
+        }
+    }
 }
 
 impl Horizon {

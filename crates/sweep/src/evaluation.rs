@@ -8,7 +8,7 @@ use righting_ocp::Control;
 use righting_planner::{Plan, plan_with_threads};
 use righting_results::{Status, Terminal, Trajectory};
 use righting_scenario::Scenario;
-use righting_verifier::{fly, verify};
+use righting_verifier::{simulate, verify};
 use serde_json::Value;
 
 use crate::outcome::{CaseStatus, Flown, Outcome, Trouble};
@@ -101,7 +101,7 @@ impl Evaluator {
             Some(Err(outcome)) => return outcome.clone(),
             None => unreachable!("planned just now"),
         };
-        let (terminal, verification) = fly(scenario, plan);
+        let (terminal, verification) = simulate(scenario, plan);
         Outcome {
             status: CaseStatus::Flown(Flown::Flown),
             verified: verification.passed,

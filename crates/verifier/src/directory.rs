@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::ledger::{Ledger, Worst};
-use crate::verify;
-use righting_results::solution::{SCHEMA, Solution, Terminal};
+use crate::model::State;
+use crate::requirements::Requirements;
+use crate::verify::verify;
+use righting_results::solution::{SCHEMA, Solution};
 use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE, objective};
 use righting_scenario::error::Error;
@@ -66,7 +68,8 @@ fn check_claims(
     cost.at_most((found - solution.objective).abs(), REPORTED * found.abs().max(1e-9), None, None);
     ledger.add(cost);
 
-    let found = Terminal::reached(scenario, trajectory);
+    let end = State::of_node(trajectory.end());
+    let found = Requirements::new(scenario).goal.reached(&end);
     let claimed = &solution.terminal;
     let pairs = [
         (found.attitude_error, claimed.attitude_error),

@@ -29,84 +29,87 @@ const ERROR: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-/// An integrator of one autonomous system, with the step size that fitted last.
+/// An integrator of one autonomous system, with the step size that fitted last. Allocates nothing
+/// while it integrates.
 pub struct DormandPrince {
     step: f64,
+    /// ẋ at each stage.
+    rates: [Vec<f64>; 7],
+    /// The state at a stage; of the last one, the result.
+    next: Vec<f64>,
 }
 
 impl DormandPrince {
-    /// One that has made no step yet.
-    #[allow(clippy::new_without_default, reason = "a default step size means nothing")]
-    pub fn new() -> Self {
-        Self { step: f64::INFINITY }
+    /// For a system of `dimension` states.
+    pub fn new(dimension: usize) -> Self {
+        let zeros = || vec![0.0; dimension];
+        Self { step: f64::INFINITY, rates: std::array::from_fn(|_| zeros()), next: zeros() }
     }
 
-    /// Carries `x` over `duration` by ẋ = `rate(x)`. Returns none if the motion is too wild to
-    /// follow or not finite.
+    /// Carries `x` over `duration` by ẋ = `rate(x)`, which is written into its second argument.
+    /// Returns whether it could: not if the motion is too wild to follow or not finite.
     pub fn advance(
         &mut self,
-        x: &[f64],
+        x: &mut [f64],
         duration: f64,
-        rate: impl Fn(&[f64]) -> Vec<f64>,
-    ) -> Option<Vec<f64>> {
-        let mut x = x.to_vec();
-        let mut rates = vec![rate(&x)];
+        mut rate: impl FnMut(&[f64], &mut [f64]),
+    ) -> bool {
+        rate(x, &mut self.rates[0]);
         let mut left = duration;
         for _ in 0..MAX_STEPS {
             let last = self.step >= left;
             let step = if last { left } else { self.step };
-            for coefficients in STAGES {
-                rates.push(rate(&moved(&x, step, coefficients, &rates)));
-            }
             // The last stage is evaluated at the fifth-order result, which starts the next step.
-            let next = moved(&x, step, STAGES[5], &rates);
-            let error = error_norm(&x, &next, step, &rates);
+            for (stage, coefficients) in STAGES.iter().enumerate() {
+                self.move_from(x, step, coefficients);
+                rate(&self.next, &mut self.rates[stage + 1]);
+            }
+            let error = self.error_norm(x, step);
             if !error.is_finite() {
-                return None;
+                return false;
             }
             let factor = (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
             if error <= 1.0 {
-                x = next;
+                x.copy_from_slice(&self.next);
                 if last {
                     // The remainder of an interval says little about the next one's step.
                     self.step = self.step.max(step * factor);
-                    return Some(x);
+                    return true;
                 }
                 left -= step;
-                rates.swap(0, 6);
+                self.rates.swap(0, 6);
             }
             self.step = step * factor;
-            rates.truncate(1);
         }
-        None
+        false
     }
-}
 
-/// x + h Σ cᵢ kᵢ
-fn moved(x: &[f64], step: f64, coefficients: &[f64], rates: &[Vec<f64>]) -> Vec<f64> {
-    let mut moved = x.to_vec();
-    for (coefficient, rates) in coefficients.iter().zip(rates) {
-        if *coefficient != 0.0 {
-            let scale = step * coefficient;
-            moved.iter_mut().zip(rates).for_each(|(x, rate)| *x += scale * rate);
+    /// x + h Σ cᵢ kᵢ, the state at the next stage.
+    fn move_from(&mut self, x: &[f64], step: f64, coefficients: &[f64]) {
+        self.next.copy_from_slice(x);
+        for (coefficient, rates) in coefficients.iter().zip(&self.rates) {
+            if *coefficient != 0.0 {
+                let scale = step * coefficient;
+                self.next.iter_mut().zip(rates).for_each(|(next, rate)| *next += scale * rate);
+            }
         }
     }
-    moved
-}
 
-/// Largest error of any state relative to what is allowed.
-fn error_norm(x: &[f64], next: &[f64], step: f64, rates: &[Vec<f64>]) -> f64 {
-    let mut largest = 0.0_f64;
-    for i in 0..x.len() {
-        let error: f64 = ERROR.iter().zip(rates).map(|(weight, rates)| weight * rates[i]).sum();
-        let scale = TOLERANCE * x[i].abs().max(next[i].abs()).max(1.0);
-        let relative = (step * error).abs() / scale;
-        if relative.is_nan() {
-            return f64::NAN;
+    /// Largest error of any state relative to what is allowed.
+    fn error_norm(&self, x: &[f64], step: f64) -> f64 {
+        let mut largest = 0.0_f64;
+        for i in 0..x.len() {
+            let weighted = ERROR.iter().zip(&self.rates).map(|(weight, rates)| weight * rates[i]);
+            let error: f64 = weighted.sum();
+            let scale = TOLERANCE * x[i].abs().max(self.next[i].abs()).max(1.0);
+            let relative = (step * error).abs() / scale;
+            if relative.is_nan() {
+                return f64::NAN;
+            }
+            largest = largest.max(relative);
         }
-        largest = largest.max(relative);
+        largest
     }
-    largest
 }
 
 #[cfg(test)]
@@ -115,32 +118,34 @@ mod tests {
 
     #[test]
     fn follows_an_oscillator_and_an_orbit_to_the_tolerance() {
-        let oscillator = |x: &[f64]| vec![x[1], -25.0 * x[0]];
-        let mut integrator = DormandPrince::new();
-        let mut x = vec![1.0, 0.0];
+        let oscillator = |x: &[f64], rate: &mut [f64]| {
+            rate.copy_from_slice(&[x[1], -25.0 * x[0]]);
+        };
+        let mut integrator = DormandPrince::new(2);
+        let mut x = [1.0, 0.0];
         for k in 1..=200 {
-            x = integrator.advance(&x, 0.05, oscillator).unwrap();
+            assert!(integrator.advance(&mut x, 0.05, oscillator));
             let t = 0.05 * f64::from(k);
             assert!((x[0] - (5.0 * t).cos()).abs() < 2e-8, "{t}: {}", x[0]);
         }
 
         // Kepler's problem, eccentricity 0.5, one revolution.
-        let orbit = |x: &[f64]| {
+        let orbit = |x: &[f64], rate: &mut [f64]| {
             let cubed = (x[0] * x[0] + x[1] * x[1]).powf(1.5);
-            vec![x[2], x[3], -x[0] / cubed, -x[1] / cubed]
+            rate.copy_from_slice(&[x[2], x[3], -x[0] / cubed, -x[1] / cubed]);
         };
         let start = [0.5, 0.0, 0.0, 3.0_f64.sqrt()];
-        let period = 2.0 * std::f64::consts::PI;
-        let end = DormandPrince::new().advance(&start, period, orbit).unwrap();
-        for (end, start) in end.iter().zip(&start) {
+        let mut x = start;
+        assert!(DormandPrince::new(4).advance(&mut x, 2.0 * std::f64::consts::PI, orbit));
+        for (end, start) in x.iter().zip(&start) {
             assert!((end - start).abs() < 1e-8);
         }
     }
 
     #[test]
     fn wild_motion_is_given_up() {
-        let explosion = |x: &[f64]| vec![x[0] * x[0]];
-        assert!(DormandPrince::new().advance(&[1.0], 2.0, explosion).is_none());
-        assert!(DormandPrince::new().advance(&[f64::NAN], 1.0, explosion).is_none());
+        let explosion = |x: &[f64], rate: &mut [f64]| rate[0] = x[0] * x[0];
+        assert!(!DormandPrince::new(1).advance(&mut [1.0], 2.0, explosion));
+        assert!(!DormandPrince::new(1).advance(&mut [f64::NAN], 1.0, explosion));
     }
 }

@@ -1,13 +1,12 @@
 //! Joint limits and clearances, at the nodes and between them.
 
-use righting_multibody::State;
+use nalgebra::Vector3;
 
 use crate::ledger::{Ledger, Subject, Worst};
-use crate::replay::Replay;
+use crate::model::State;
+use crate::requirements::Requirements;
+use crate::simulation::Simulation;
 use righting_results::trajectory::Trajectory;
-use righting_scenario::collision::{Between, CollisionModel};
-use righting_scenario::scenario::Scenario;
-use righting_scenario::system_description::{JointLimits, SystemDescription};
 
 /// How far a node may be past a limit (rad, rad/s, rad/s², m).
 const AT_NODES: f64 = 1e-6;
@@ -17,68 +16,75 @@ const BETWEEN_NODES: f64 = 1e-3;
 const SAMPLES: usize = 10;
 
 /// Worst places of the quantities that have limits.
-struct Limits {
+struct Limits<'a> {
+    asked: &'a Requirements,
     angle: Worst,
     rate: Worst,
     body: Worst,
     links: Worst,
+    /// Origins of the arm's frames in the posture looked at last.
+    origins: Vec<Vector3<f64>>,
+}
+
+/// Joint angles and rates under constant acceleration.
+struct Joints {
+    angles: Vec<f64>,
+    rates: Vec<f64>,
 }
 
 pub(super) fn check(
-    scenario: &Scenario,
+    asked: &Requirements,
     trajectory: &Trajectory,
-    replay: &Replay,
+    simulation: &Simulation,
     ledger: &mut Ledger,
 ) {
-    let system = scenario.system();
-    let collision = scenario.collision();
-    let mut at_nodes = Limits {
-        angle: Worst::new("joint angle at nodes", "rad", AT_NODES),
-        rate: Worst::new("joint rate at nodes", "rad/s", AT_NODES),
-        body: Worst::new("clearance from body at nodes", "m", AT_NODES),
-        links: Worst::new("clearance between links at nodes", "m", AT_NODES),
-    };
+    let names = [
+        "joint angle at nodes",
+        "joint rate at nodes",
+        "clearance from body at nodes",
+        "clearance between links at nodes",
+    ];
+    let mut at_nodes = Limits::new(asked, names, AT_NODES);
     for node in trajectory.nodes() {
-        let (angles, rates) = (&node.joint_angles_rad, &node.joint_rates_rad_s);
-        at_nodes.look_at_joints(&system.joint_limits, angles, rates, node.time_s);
-        at_nodes.look_at_clearances(system, collision, angles, node.time_s);
+        at_nodes.look(&node.joint_angles_rad, &node.joint_rates_rad_s, node.time_s);
     }
-    let mut between = Limits {
-        angle: Worst::new("joint angle between nodes", "rad", BETWEEN_NODES),
-        rate: Worst::new("joint rate between nodes", "rad/s", BETWEEN_NODES),
-        body: Worst::new("clearance from body between nodes", "m", BETWEEN_NODES),
-        links: Worst::new("clearance between links between nodes", "m", BETWEEN_NODES),
-    };
+    let names = [
+        "joint angle between nodes",
+        "joint rate between nodes",
+        "clearance from body between nodes",
+        "clearance between links between nodes",
+    ];
+    let mut between = Limits::new(asked, names, BETWEEN_NODES);
     let mut acceleration = Worst::new("joint acceleration", "rad/s²", AT_NODES);
-    for (k, interval) in trajectory.intervals().iter().enumerate() {
+    let mut joints = Joints::new(asked.joint_limits.len());
+    for (k, (interval, state)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate()
+    {
         let control = &interval.joint_accelerations_rad_s2;
-        let start_s = scenario.horizon().time_s(k);
-        let duration_s = scenario.horizon().time_s(k + 1) - start_s;
-        for (joint, (limits, control)) in system.joint_limits.iter().zip(control).enumerate() {
+        let start_s = asked.horizon.time_s(k);
+        let duration_s = asked.horizon.time_s(k + 1) - start_s;
+        for (joint, (limits, control)) in asked.joint_limits.iter().zip(control).enumerate() {
             let limit = limits.acceleration_max_rad_s2;
             let subject = Some(Subject::Joint(joint));
             acceleration.at_most(control.abs(), limit, subject, Some(start_s));
         }
-        let state = &replay.nodes()[k];
         for after_s in sampled(duration_s) {
-            let (angles, rates) = joints_after(state, control, after_s);
-            between.look_at_joints(&system.joint_limits, &angles, &rates, start_s + after_s);
-            between.look_at_clearances(system, collision, &angles, start_s + after_s);
+            joints.move_on(&state, control, after_s);
+            between.look(&joints.angles, &joints.rates, start_s + after_s);
         }
-        for (joint, limits) in system.joint_limits.iter().enumerate() {
+        for (joint, rate) in state.joint_rates.iter().enumerate() {
             // A joint that turns back within the interval goes farthest between two samples.
-            let after_s = -state.joint_rates[joint] / control[joint];
+            let after_s = -rate / control[joint];
             if after_s > 0.0 && after_s < duration_s {
-                let (angles, _) = joints_after(state, control, after_s);
-                between.look_at_angle(limits, joint, angles[joint], start_s + after_s);
+                joints.move_on(&state, control, after_s);
+                between.look_at_angle(joint, joints.angles[joint], start_s + after_s);
             }
         }
     }
-    let Limits { angle, rate, body, links } = at_nodes;
+    let Limits { angle, rate, body, links, .. } = at_nodes;
     for worst in [angle, rate, acceleration, body, links] {
         ledger.add(worst);
     }
-    let Limits { angle, rate, body, links } = between;
+    let Limits { angle, rate, body, links, .. } = between;
     for worst in [angle, rate, body, links] {
         ledger.add(worst);
     }
@@ -89,61 +95,58 @@ fn sampled(duration_s: f64) -> impl Iterator<Item = f64> {
     (1..=SAMPLES).map(move |i| duration_s * i as f64 / (SAMPLES + 1) as f64)
 }
 
-/// Joint angles and rates under constant acceleration.
-fn joints_after(state: &State<f64>, control: &[f64], after_s: f64) -> (Vec<f64>, Vec<f64>) {
-    let joints = state.joint_angles.iter().zip(&state.joint_rates).zip(control);
-    joints
-        .map(|((angle, rate), acceleration)| {
+impl Joints {
+    fn new(count: usize) -> Self {
+        Self { angles: vec![0.0; count], rates: vec![0.0; count] }
+    }
+
+    /// From `state`, `after_s` later.
+    fn move_on(&mut self, state: &State<'_>, control: &[f64], after_s: f64) {
+        for (joint, acceleration) in control.iter().enumerate() {
+            let (angle, rate) = (state.joint_angles[joint], state.joint_rates[joint]);
             let gained = acceleration * after_s;
-            (angle + (rate + 0.5 * gained) * after_s, rate + gained)
-        })
-        .unzip()
+            self.angles[joint] = angle + (rate + 0.5 * gained) * after_s;
+            self.rates[joint] = rate + gained;
+        }
+    }
 }
 
-impl Limits {
-    fn look_at_joints(
-        &mut self,
-        limits: &[JointLimits],
-        angles_rad: &[f64],
-        rates_rad_s: &[f64],
-        time_s: f64,
-    ) {
-        for (joint, limits) in limits.iter().enumerate() {
-            self.look_at_angle(limits, joint, angles_rad[joint], time_s);
+impl<'a> Limits<'a> {
+    /// Limits on angles, rates, clearances from the body and between links.
+    fn new(asked: &'a Requirements, names: [&'static str; 4], tolerance: f64) -> Self {
+        let [angle, rate, body, links] = names;
+        Self {
+            asked,
+            angle: Worst::new(angle, "rad", tolerance),
+            rate: Worst::new(rate, "rad/s", tolerance),
+            body: Worst::new(body, "m", tolerance),
+            links: Worst::new(links, "m", tolerance),
+            origins: vec![Vector3::zeros(); asked.model.joint_count() + 1],
+        }
+    }
+
+    fn look(&mut self, angles_rad: &[f64], rates_rad_s: &[f64], time_s: f64) {
+        for (joint, limits) in self.asked.joint_limits.iter().enumerate() {
+            self.look_at_angle(joint, angles_rad[joint], time_s);
             let rate = rates_rad_s[joint].abs();
             let subject = Some(Subject::Joint(joint));
             self.rate.at_most(rate, limits.rate_max_rad_s, subject, Some(time_s));
         }
+        let Requirements { model, clearances, .. } = self.asked;
+        if !clearances.is_empty() {
+            model.origins(angles_rad, &mut self.origins);
+            clearances.look(&self.origins, time_s, &mut self.body, &mut self.links);
+        }
     }
 
-    fn look_at_angle(&mut self, limits: &JointLimits, joint: usize, angle_rad: f64, time_s: f64) {
+    fn look_at_angle(&mut self, joint: usize, angle_rad: f64, time_s: f64) {
         let (subject, time_s) = (Some(Subject::Joint(joint)), Some(time_s));
-        if limits.angle_max_rad.is_finite() {
-            self.angle.at_most(angle_rad, limits.angle_max_rad, subject, time_s);
+        let limits = &self.asked.joint_limits[joint];
+        if let Some(max_rad) = limits.angle_max_rad {
+            self.angle.at_most(angle_rad, max_rad, subject, time_s);
         }
-        if limits.angle_min_rad.is_finite() {
-            self.angle.at_least(angle_rad, limits.angle_min_rad, subject, time_s);
-        }
-    }
-
-    fn look_at_clearances(
-        &mut self,
-        system: &SystemDescription,
-        collision: &CollisionModel,
-        angles_rad: &[f64],
-        time_s: f64,
-    ) {
-        if collision.body_links.is_empty() && collision.link_pairs.is_empty() {
-            return;
-        }
-        let posture = system.model.kinematics(angles_rad);
-        for clearance in collision.clearances(&posture) {
-            let worst = match clearance.between {
-                Between::LinkAndBody(_) => &mut self.body,
-                Between::Links(..) => &mut self.links,
-            };
-            let subject = Some(Subject::Clearance(clearance.between));
-            worst.at_least(clearance.distance_m, clearance.least_m, subject, Some(time_s));
+        if let Some(min_rad) = limits.angle_min_rad {
+            self.angle.at_least(angle_rad, min_rad, subject, time_s);
         }
     }
 }

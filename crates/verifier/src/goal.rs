@@ -1,0 +1,53 @@
+//! What the end of a maneuver shall be, and what it is.
+
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+
+use crate::model::State;
+use righting_results::solution::Terminal;
+use righting_scenario::file;
+
+/// What the end shall be.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Goal {
+    /// At rest in an attitude, body → inertial.
+    Attitude(UnitQuaternion<f64>),
+    /// With the arm at rest and the base turning slower than at the start.
+    LessRate {
+        /// The norm of the base's rate at the start, deg/s.
+        start_deg_s: f64,
+    },
+}
+
+impl Goal {
+    /// Of a resolved scenario that starts in the state `start`.
+    pub fn new(maneuver: &file::Maneuver, start: &State<'_>) -> Self {
+        match (maneuver.axis, maneuver.angle_deg) {
+            (Some(axis), Some(angle_deg)) => {
+                let axis = Unit::new_normalize(Vector3::from(axis));
+                let turn = UnitQuaternion::from_axis_angle(&axis, angle_deg.to_radians());
+                Self::Attitude(UnitQuaternion::from_quaternion(start.attitude) * turn)
+            }
+            _ => Self::LessRate { start_deg_s: start.angular_rate.norm().to_degrees() },
+        }
+    }
+
+    /// What a maneuver that ends in the state `end` has reached.
+    pub fn reached(&self, end: &State<'_>) -> Terminal {
+        let (attitude_error, attitude_error_deg) = match self {
+            Self::Attitude(target) => {
+                let error = target.conjugate().into_inner() * end.attitude.normalize();
+                let Quaternion { coords } = error;
+                let vector = error.imag().norm();
+                (vector, 2.0 * vector.atan2(coords.w.abs()).to_degrees())
+            }
+            Self::LessRate { .. } => (0.0, 0.0),
+        };
+        let squares = end.joint_rates.iter().map(|rate| rate * rate);
+        Terminal {
+            attitude_error,
+            attitude_error_deg,
+            angular_rate_deg_s: end.angular_rate.norm().to_degrees(),
+            joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What the base does when the joints accelerate, and the torques it takes.
+
+use nalgebra::{Matrix3, Quaternion, Vector3};
+
+use super::body::Carrier;
+use super::{Model, Motion, State};
+
+/// Acceleration of the base, in inertial axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BaseAcceleration {
+    /// Ω̇, rad/s².
+    pub angular: Vector3<f64>,
+    /// r̈ of the base's center of mass, m/s².
+    pub linear: Vector3<f64>,
+}
+
+impl Model {
+    /// The acceleration of the free-floating base in the state `state` while its joints accelerate
+    /// by `u` (j, rad/s²); NaN if the system has no motion. Leaves in `motion` the motion of an
+    /// unaccelerated base.
+    ///
+    /// # Panics
+    /// A slice does not have one value a joint, or `motion` is another model's.
+    pub fn base_acceleration(
+        &self,
+        state: &State<'_>,
+        u: &[f64],
+        motion: &mut Motion,
+    ) -> BaseAcceleration {
+        motion.set(self, state, &BaseAcceleration::default(), u);
+        let center = motion.center_of_mass();
+        let mut force = Vector3::zeros();
+        let mut moment = Vector3::zeros();
+        let mut inertia = Matrix3::zeros();
+        for body in motion.bodies() {
+            let arm = body.center - center;
+            force += body.force;
+            moment += arm.cross(&body.force) + body.moment;
+            let parallel_axes =
+                Matrix3::from_diagonal_element(arm.norm_squared()) - arm * arm.transpose();
+            inertia += body.inertia + parallel_axes * body.mass;
+        }
+        let angular = inertia
+            .cholesky()
+            .map_or_else(|| Vector3::repeat(f64::NAN), |factor| factor.solve(&-moment));
+        let linear = -force / self.total_mass - angular.cross(&(center - state.position));
+        BaseAcceleration { angular, linear }
+    }
+
+    /// Writes ẋ of the state vector `x` ∈ R^{13+2j} under joint accelerations `u` (j, rad/s²) into
+    /// `rate`.
+    ///
+    /// # Panics
+    /// A slice has another length, or `motion` is another model's.
+    pub fn state_derivative(&self, x: &[f64], u: &[f64], motion: &mut Motion, rate: &mut [f64]) {
+        let state = State::from_slice(x);
+        let base = self.base_acceleration(&state, u, motion);
+        State {
+            position: state.velocity,
+            attitude: state.attitude * Quaternion::from_imag(state.angular_rate) * 0.5,
+            velocity: base.linear,
+            // Ω = C ω, so Ω̇ = C ω̇ + Ω × Ω.
+            angular_rate: motion.base().rotation.tr_mul(&base.angular),
+            joint_angles: state.joint_rates,
+            joint_rates: u,
+        }
+        .write(rate);
+    }
+
+    /// Writes the torques (N m) of the joints' motors into `torques` (j): of the free-floating system
+    /// in the state `state` while its joints accelerate by `u` (j, rad/s²).
+    ///
+    /// # Panics
+    /// A slice does not have one value a joint, or `motion` is another model's.
+    pub fn joint_torques(
+        &self,
+        state: &State<'_>,
+        u: &[f64],
+        motion: &mut Motion,
+        torques: &mut [f64],
+    ) {
+        assert_eq!(torques.len(), self.joint_count());
+        let base = self.base_acceleration(state, u, motion);
+        motion.set(self, state, &base, u);
+        // Force and moment about the base's center of mass on all that lies beyond a joint.
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        let mut outward = self.bodies.iter().zip(motion.bodies()).rev().peekable();
+        for (joint, torque) in torques.iter_mut().enumerate().rev() {
+            let is_beyond = |carrier| matches!(carrier, Carrier::Frame(frame) if frame > joint);
+            while let Some((_, body)) = outward.next_if(|(body, _)| is_beyond(body.carrier)) {
+                let arm = body.center - state.position;
+                force += body.force;
+                moment += arm.cross(&body.force) + body.moment;
+            }
+            let (point, axis) = motion.joint_axis(self.convention, joint);
+            *torque = axis.dot(&(moment - (point - state.position).cross(&force)));
+        }
+    }
+}

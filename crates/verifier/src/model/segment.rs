@@ -1,0 +1,54 @@
+//! Distances of straight segments from points and from each other, by cases.
+
+use nalgebra::Vector3;
+
+/// A straight segment between two points; of no length where they coincide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// One end, m.
+    pub start: Vector3<f64>,
+    /// The other end, m.
+    pub end: Vector3<f64>,
+}
+
+impl Segment {
+    /// Distance to a point, m.
+    pub fn distance_to_point(&self, point: &Vector3<f64>) -> f64 {
+        let along = self.end - self.start;
+        let from_start = point - self.start;
+        let length_squared = along.norm_squared();
+        let part = if length_squared > 0.0 {
+            (from_start.dot(&along) / length_squared).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (from_start - along * part).norm()
+    }
+
+    /// Distance to another segment, m.
+    ///
+    /// The squared distance is a convex function of the two places along the segments. Its least
+    /// value is at an end of one of them, or between the feet of the common perpendicular of the two
+    /// lines, where both lie within the segments.
+    pub fn distance_to_segment(&self, other: &Self) -> f64 {
+        let ends = other
+            .distance_to_point(&self.start)
+            .min(other.distance_to_point(&self.end))
+            .min(self.distance_to_point(&other.start))
+            .min(self.distance_to_point(&other.end));
+        self.common_perpendicular(other).map_or(ends, |length| length.min(ends))
+    }
+
+    /// Length of the common perpendicular of the two lines, if both feet lie within the segments.
+    fn common_perpendicular(&self, other: &Self) -> Option<f64> {
+        let (u, v) = (self.end - self.start, other.end - other.start);
+        let normal = u.cross(&v);
+        let apart = other.start - self.start;
+        // By Cramer's rule from apart + t v - s u = k normal; of parallel lines s and t are no numbers.
+        let s = apart.cross(&v).dot(&normal) / normal.norm_squared();
+        let t = apart.cross(&u).dot(&normal) / normal.norm_squared();
+        let is_within = |part: f64| (0.0..=1.0).contains(&part);
+        // From foot to foot: never less than the distance, however the normal was rounded.
+        (is_within(s) && is_within(t)).then(|| (apart + v * t - u * s).norm())
+    }
+}
