@@ -52,11 +52,6 @@ impl Progress {
             false => self.bar.println(line),
         }
     }
-
-    /// Shows what is done after the iterations.
-    pub fn show_stage(&self, stage: &'static str) {
-        self.bar.set_message(stage);
-    }
 }
 
 impl Drop for Progress {

@@ -17,11 +17,10 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats};
 use crate::interrupt::Interrupt;
-use crate::optimizer;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
-use crate::solve::{Shown, Times, assemble, write};
-use crate::{output, scenario_input};
+use crate::solve::{Shown, write};
+use crate::{build, optimizer, output, scenario_input};
 
 const JSON_FILE: &str = "reach.json";
 const FIGURE_FILE: &str = "reach.svg";
@@ -271,12 +270,13 @@ fn keep(
 ) -> Result<Vec<PathBuf>, Failure> {
     let mut files = vec![folder.write(JSON_FILE, output::to_json(printed)?.as_bytes())?];
     let plan_folder = folder.path().join(PLAN_FOLDER);
-    if let Some(Reached { scenario, plan, verification, verify }) = &found.plan {
-        let times = Times { load, verify: *verify };
-        let mut solution = assemble(scenario, plan, verification.clone(), times);
+    if let Some(Reached { scenario, planned }) = &found.plan {
+        let mut solution = planned.solution.clone();
+        solution.timing_s.load = load.as_secs_f64();
+        build::VERSION.clone_into(&mut solution.versions.righting);
         let plan_folder = OutputFolder::open(&plan_folder)?;
         let shown = Shown { figures: FigureSet::Usual, writer, page: true };
-        let trajectory = &plan.trajectory;
+        let trajectory = &planned.trajectory;
         let written = write(&plan_folder, shown, scenario, &mut solution, trajectory, started)?;
         files.extend(written.paths());
     } else if plan_folder.is_dir() {

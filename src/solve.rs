@@ -1,20 +1,16 @@
 //! `righting solve`: plan a maneuver, prove it, write it down.
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
-use righting_analysis::detumble::rate_bound_rad_s;
-use righting_ocp::{Control, UsedLinearSolver};
-use righting_planner::{Plan, plan, plan_from};
+use righting_ocp::Control;
+use righting_planner::{Planned, Planner};
 use righting_report::{FigureWriter, report_html, summary};
-use righting_results::solution::SCHEMA;
 use righting_results::{
-    IterationRecord, SOLUTION_FILE, Solution, Status, TRAJECTORY_FILE, Terminal, Timing,
-    Trajectory, Verification, Versions,
+    IterationRecord, SOLUTION_FILE, Solution, Status, TRAJECTORY_FILE, Trajectory,
 };
-use righting_scenario::{Maneuver, Scenario};
-use righting_verifier::verify;
+use righting_scenario::Scenario;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -72,10 +68,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     // From here on: until then a signal may end the process while it waits for standard input.
     let interrupt = Interrupt::watch();
     let load = started.elapsed();
-    let warm_start = match (&arguments.warm_start, &arguments.library) {
+    let mut warm_start = match (&arguments.warm_start, &arguments.library) {
         (Some(folder), _) => WarmStart::of_plan(folder, &scenario)?,
-        (None, Some(library)) => WarmStart::of_library(library, &scenario)?,
-        (None, None) => WarmStart::default(),
+        (None, Some(library)) => WarmStart::of_library(library)?,
+        (None, None) => WarmStart::None,
     };
     let writer = arguments.formats.writer()?;
     optimizer::load()?;
@@ -86,15 +82,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         progress.show(record);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     };
-    let mut plan = match &warm_start.trajectory {
-        Some(earlier) => plan_from(&scenario, earlier, &mut on_iteration)?,
-        None => plan(&scenario, &mut on_iteration)?,
-    };
-    plan.notes.splice(..0, warm_start.note);
-    progress.show_stage("verifying");
-    let mut solution = checked(&scenario, &plan, load);
+    let mut planner = Planner::new().program(build::VERSION);
+    match &mut warm_start {
+        WarmStart::None => {}
+        WarmStart::Plan { trajectory, .. } => planner = planner.warm_start(trajectory),
+        WarmStart::Library(library) => planner = planner.library(library),
+    }
+    let Planned { mut solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;
+    drop(planner);
+    warm_start.report(&mut solution);
+    solution.timing_s.load = load.as_secs_f64();
     let shown = Shown { figures: arguments.figures, writer: &writer, page: !arguments.no_report };
-    let files = write(&folder, shown, &scenario, &mut solution, &plan.trajectory, started)?;
+    let files = write(&folder, shown, &scenario, &mut solution, &trajectory, started)?;
     drop(progress);
 
     if arguments.json {
@@ -167,76 +166,4 @@ fn show(
     let page = page.then(|| report_html(scenario, solution, trajectory));
     let page = page.map(|page| folder.write(REPORT_FILE, page.as_bytes())).transpose()?;
     Ok(ResultFiles::of_plan(folder, figures, page))
-}
-
-/// The solution that a plan amounts to, verified where there is something to verify.
-pub fn checked(scenario: &Scenario, plan: &Plan, load: Duration) -> Solution {
-    let checking = Instant::now();
-    let verification = match plan.status.is_acceptable() {
-        true => verify(scenario, &plan.trajectory),
-        false => Verification::default(),
-    };
-    let times = Times { load, verify: checking.elapsed() };
-    assemble(scenario, plan, verification, times)
-}
-
-/// What this command timed itself.
-pub struct Times {
-    pub load: Duration,
-    pub verify: Duration,
-}
-
-/// The contents of `solution.json`, but for the total time.
-pub fn assemble(
-    scenario: &Scenario,
-    plan: &Plan,
-    verification: Verification,
-    times: Times,
-) -> Solution {
-    let timing = plan.timing;
-    let terminal = Terminal::reached(scenario, &plan.trajectory);
-    let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
-    Solution {
-        schema: SCHEMA.to_owned(),
-        scenario: scenario.resolved().clone(),
-        scenario_sha256: scenario.resolved().sha256(),
-        versions: versions(plan),
-        status: plan.status,
-        objective: plan.objective,
-        iterations: plan.iterations,
-        constraint_violation: plan.constraint_violation,
-        terminal,
-        timing_s: Timing {
-            load: times.load.as_secs_f64(),
-            trace: timing.trace.as_secs_f64(),
-            guess: timing.guess.as_secs_f64(),
-            evaluate: timing.evaluate.as_secs_f64(),
-            linear_algebra: timing.linear_algebra.as_secs_f64(),
-            solve: timing.solve.as_secs_f64(),
-            verify: times.verify.as_secs_f64(),
-            total: 0.0,
-        },
-        verification,
-        bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
-        reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
-        notes: plan.notes.clone(),
-        attempts: plan.attempts.clone(),
-        history: plan.history.clone(),
-    }
-}
-
-fn versions(plan: &Plan) -> Versions {
-    let found = righting_ipopt::versions();
-    let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
-    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
-    Versions {
-        righting: build::VERSION.to_owned(),
-        ipopt: found.ipopt.clone(),
-        optimizer: plan.optimizer,
-        linear_solver: match plan.linear_solver {
-            UsedLinearSolver::Stage => "stage".to_owned(),
-            UsedLinearSolver::Mumps => format!("mumps {mumps}"),
-            UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),
-        },
-    }
 }

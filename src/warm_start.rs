@@ -15,13 +15,20 @@ use crate::plan_folder::refuse_file;
 /// So many subfolders of a library that are of no use are named.
 const MOST_WARNINGS: usize = 10;
 
-/// An earlier motion, if there is one, and what a reader of the plan should know about it.
-#[derive(Debug, Default)]
-pub struct WarmStart {
-    /// The motion.
-    pub trajectory: Option<Trajectory>,
-    /// Such as where it is from.
-    pub note: Option<String>,
+/// What to start from besides the scenario's own guesses.
+#[derive(Debug)]
+pub enum WarmStart {
+    /// Nothing.
+    None,
+    /// An earlier plan.
+    Plan {
+        /// Its motion.
+        trajectory: Trajectory,
+        /// What a reader of the plan should know about it.
+        note: Option<String>,
+    },
+    /// The nearest plan of a library.
+    Library(Library),
 }
 
 impl WarmStart {
@@ -50,37 +57,36 @@ impl WarmStart {
                 None
             }
         };
-        Ok(Self { trajectory: Some(trajectory), note })
+        Ok(Self::Plan { trajectory, note })
     }
 
-    /// The nearest plan of a library of plans, which is made if it is missing.
-    pub fn of_library(folder: &Path, scenario: &Scenario) -> Result<Self, Failure> {
+    /// A library of plans, which is made if it is missing.
+    pub fn of_library(folder: &Path) -> Result<Self, Failure> {
         refuse_file(folder, "the folder of a library")?;
         std::fs::create_dir_all(folder)
             .map_err(|source| Error::Write { file: folder.to_owned(), source })?;
-        let mut library = Library::read(folder)?;
-        let nearest = library.nearest(scenario);
-        let shown = folder.display();
-        let warn = |text: &str| {
-            output::say(Label::Warning, &format!("{shown}: skipped {text}"));
-        };
-        for skipped in library.skipped().iter().take(MOST_WARNINGS) {
-            warn(&skipped.to_string());
+        Ok(Self::Library(Library::read(folder)?))
+    }
+
+    /// Says what a reader of the plan should know: in its notes, and on stderr what of the library was
+    /// of no use.
+    pub fn report(self, solution: &mut Solution) {
+        match self {
+            Self::None => {}
+            Self::Plan { note, .. } => solution.notes.splice(..0, note).for_each(drop),
+            Self::Library(library) => warn_of_skipped(&library),
         }
-        let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
-        if more > 0 {
-            warn(&format!("{more} more"));
-        }
-        let note = match &nearest {
-            Some(near) => {
-                let (name, distance) = (&near.name, near.distance);
-                format!("library maneuver {name} was a start too (distance {distance:.3})")
-            }
-            None if library.is_empty() => {
-                format!("library {shown} is empty: a plan joins it by --out {shown}/NAME")
-            }
-            None => format!("library {shown} holds no maneuver of this type by this arm"),
-        };
-        Ok(Self { trajectory: nearest.map(|near| near.trajectory), note: Some(note) })
+    }
+}
+
+fn warn_of_skipped(library: &Library) {
+    let shown = library.folder().display();
+    let warn = |text: &str| output::say(Label::Warning, &format!("{shown}: skipped {text}"));
+    for skipped in library.skipped().iter().take(MOST_WARNINGS) {
+        warn(&skipped.to_string());
+    }
+    let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
+    if more > 0 {
+        warn(&format!("{more} more"));
     }
 }

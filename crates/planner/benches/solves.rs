@@ -6,7 +6,7 @@ mod chain;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use righting_ocp::Control;
-use righting_planner::plan;
+use righting_planner::Planner;
 
 fn plans(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("plan");
@@ -14,7 +14,11 @@ fn plans(criterion: &mut Criterion) {
     for joints in chain::JOINTS {
         let scenario = chain::chain(joints).expect("a sound chain");
         group.bench_function(BenchmarkId::from_parameter(joints), |bencher| {
-            bencher.iter(|| plan(&scenario, &mut |_| Control::Continue).map(|plan| plan.status));
+            bencher.iter(|| {
+                Planner::new()
+                    .plan(&scenario, &mut |_| Control::Continue)
+                    .map(|plan| plan.solution.status)
+            });
         });
     }
     group.finish();

@@ -12,36 +12,37 @@
 //! where e_N is what the end misses of the goal: attitude and rest for a slew, rest as far as
 //! momentum lets it for a detumble.
 //!
-//! [`plan`] makes a trajectory of a scenario; `righting-verifier` checks it by other means.
+//! A [`Planner`] makes a plan of a scenario and has it verified.
 //!
 //! ```
 //! use std::path::Path;
 //!
 //! use righting_ocp::Control;
-//! use righting_planner::plan;
-//! use righting_results::Terminal;
+//! use righting_planner::Planner;
 //! use righting_scenario::Scenario;
-//! use righting_verifier::verify;
 //!
 //! let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
-//! let plan = plan(&scenario, &mut |_| Control::Continue)?;
-//! assert!(verify(&scenario, &plan.trajectory).passed);
-//! assert!(Terminal::reached(&scenario, &plan.trajectory).attitude_error <= 1e-3);
+//! let planned = Planner::new().plan(&scenario, &mut |_| Control::Continue)?;
+//! assert!(planned.solution.verification.passed);
+//! assert!(planned.solution.terminal.attitude_error <= 1e-3);
+//! assert_eq!(planned.trajectory.steps(), 600);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
 
 mod formulation;
+mod hints;
+mod initial_guess;
 pub mod library;
-mod open_ways;
+mod planned;
 pub mod planner;
 pub mod reach;
 mod search;
 pub mod sparsity;
-mod starts;
 mod symmetry;
 
 pub use formulation::FormulatedManeuver;
 pub use library::Library;
-pub use planner::{Plan, PlanError, PlanTiming, plan, plan_from, plan_with_threads};
+pub use planned::Planned;
+pub use planner::{PlanError, Planner};
 pub use reach::{Reach, ReachError, ReachSettings, reach};

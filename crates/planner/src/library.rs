@@ -33,6 +33,7 @@ use righting_scenario::scenario::Scenario;
 /// The solved maneuvers of a folder. Only their `solution.json` have been read.
 #[derive(Clone, Debug)]
 pub struct Library {
+    folder: PathBuf,
     entries: Vec<Entry>,
     skipped: Vec<Skipped>,
 }
@@ -101,7 +102,8 @@ impl Library {
             }
         }
         folders.sort();
-        let mut library = Self { entries: Vec::new(), skipped: Vec::new() };
+        let mut library =
+            Self { folder: folder.to_owned(), entries: Vec::new(), skipped: Vec::new() };
         for (name, folder) in folders {
             match read_scenario(&folder) {
                 Ok(scenario) => library.entries.push(Entry { name, folder, scenario }),
@@ -109,6 +111,11 @@ impl Library {
             }
         }
         Ok(library)
+    }
+
+    /// The folder it was read from.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// How many maneuvers it holds, whatever their arm.
@@ -154,6 +161,22 @@ impl Library {
             self.skipped.push(Skipped { name: entry.name.clone(), reason });
         }
         None
+    }
+}
+
+impl Library {
+    /// What a reader of a plan should know of the library's part in it.
+    pub(crate) fn note(&self, nearest: Option<&Neighbor>) -> String {
+        let shown = self.folder.display();
+        match nearest {
+            Some(Neighbor { name, distance, .. }) => {
+                format!("library maneuver {name} was a start too (distance {distance:.3})")
+            }
+            None if self.is_empty() => {
+                format!("library {shown} is empty: a plan joins it by --out {shown}/NAME")
+            }
+            None => format!("library {shown} holds no maneuver of this type by this arm"),
+        }
     }
 }
 

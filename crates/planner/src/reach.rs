@@ -1,6 +1,6 @@
 //! What is possible at all: the shortest duration, or the largest angle, at which a maneuver succeeds.
 //!
-//! A slew succeeds when its plan passes its [verification](crate::verify), which includes the target;
+//! A slew succeeds when its plan passes its [verification](righting_verifier::verify), which includes the target;
 //! a detumble, when in addition the rate left is within some percent of its
 //! [bound](righting_analysis::detumble::rate_bound_rad_s). From the scenario's own value the search goes to easier ones
 //! until one succeeds, from there a quarter harder at a time until one fails, and then halves what
@@ -13,18 +13,16 @@
 mod frontier;
 mod trial;
 
-use std::time::Duration;
-
 use righting_ocp::Control;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::planner::{Plan, PlanError};
+use crate::planned::Planned;
+use crate::planner::PlanError;
 use frontier::{Frontier, Line, Resolution};
 use righting_analysis::detumble::rate_bound_rad_s;
 use righting_results::FiniteOrNull;
 use righting_results::solution::{IterationRecord, Status, Terminal};
-use righting_results::verification::Verification;
 use righting_scenario::error::Error;
 use righting_scenario::scenario::{LONGEST_S, Maneuver, Scenario};
 use trial::Trials;
@@ -93,17 +91,13 @@ pub struct Reach {
     pub is_interrupted: bool,
 }
 
-/// A plan with the scenario that it solves and its verification.
+/// A plan with the scenario that it solves.
 #[derive(Clone, Debug)]
 pub struct Reached {
     /// The scenario, with its duration or angle.
     pub scenario: Scenario,
     /// Its plan.
-    pub plan: Plan,
-    /// The check of that.
-    pub verification: Verification,
-    /// The time that took.
-    pub verify: Duration,
+    pub planned: Planned,
 }
 
 /// One duration or angle that was tried, and the best that its solves came to.

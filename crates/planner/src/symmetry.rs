@@ -177,7 +177,7 @@ mod tests {
     use righting_ocp::Control;
 
     use super::*;
-    use crate::planner::plan;
+    use crate::planner::Planner;
     use righting_scenario::scenario::Scenario;
     use righting_verifier::verify;
 
@@ -210,7 +210,8 @@ mod tests {
             changed.maneuver.axis = Some(axis);
             Scenario::from_file(changed, &file).unwrap()
         };
-        let plan = plan(&varied([0.6, 0.2, 0.5]), &mut |_| Control::Continue).unwrap();
+        let plan =
+            Planner::new().plan(&varied([0.6, 0.2, 0.5]), &mut |_| Control::Continue).unwrap();
         for mirror in Mirror::all(shipped.system()) {
             let axis = -reflected(mirror.normal, &Vector3::new(0.6, 0.2, 0.5));
             let verification = verify(&varied(axis.into()), &mirror.image(&plan.trajectory));

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use righting_ocp::Control;
-use righting_planner::{Plan, plan, plan_with_threads};
+use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
 use righting_test_support::{shipped, solves, varied};
 
@@ -11,7 +11,7 @@ fn small(name: &str) -> Scenario {
     varied(&shipped(name), |file| file.horizon.steps = 120.0)
 }
 
-fn csv(plan: &Plan) -> Vec<u8> {
+fn csv(plan: &Planned) -> Vec<u8> {
     let mut bytes = Vec::new();
     plan.trajectory.print_csv(&mut bytes).unwrap();
     bytes
@@ -22,10 +22,10 @@ fn two_plans_of_one_scenario_are_the_same_bytes() {
     for name in ["slew_2dof", "detumble_2dof", "slew_4dof_full"] {
         let scenario = small(name);
         let [first, second] =
-            [(); 2].map(|()| plan(&scenario, &mut |_| Control::Continue).unwrap());
-        assert!(first.status.is_acceptable(), "{name}");
-        assert_eq!(first.history, second.history, "{name}");
-        assert_eq!(solves(&first.attempts), solves(&second.attempts), "{name}");
+            [(); 2].map(|()| Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap());
+        assert!(first.solution.status.is_acceptable(), "{name}");
+        assert_eq!(first.solution.history, second.solution.history, "{name}");
+        assert_eq!(solves(&first.solution.attempts), solves(&second.solution.attempts), "{name}");
         assert!(csv(&first) == csv(&second), "{name}");
     }
 }
@@ -36,11 +36,11 @@ fn the_number_of_threads_does_not_show() {
         let scenario = small(name);
         let [one, two, many] = [1, 2, 7].map(|threads| {
             let threads = NonZeroUsize::new(threads).unwrap();
-            plan_with_threads(&scenario, threads, &mut |_| Control::Continue).unwrap()
+            Planner::new().threads(threads).plan(&scenario, &mut |_| Control::Continue).unwrap()
         });
-        assert!(one.attempts.len() > 3, "several starts were compared");
+        assert!(one.solution.attempts.len() > 3, "several starts were compared");
         for other in [two, many] {
-            assert_eq!(solves(&one.attempts), solves(&other.attempts), "{name}");
+            assert_eq!(solves(&one.solution.attempts), solves(&other.solution.attempts), "{name}");
             assert!(csv(&one) == csv(&other), "{name}");
         }
     }

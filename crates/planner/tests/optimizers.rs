@@ -1,17 +1,17 @@
 //! The interior solver against Ipopt, whole plans on the asked grids.
 
 use righting_ocp::Control;
-use righting_planner::{Plan, plan};
+use righting_planner::{Planned, Planner};
 use righting_results::UsedOptimizer;
 use righting_scenario::file::{Guess, NamedGuess, Optimizer};
 use righting_test_support::{shipped, solves, varied};
 
-fn planned(name: &str, optimizer: Optimizer, guess: NamedGuess) -> Plan {
+fn planned(name: &str, optimizer: Optimizer, guess: NamedGuess) -> Planned {
     let scenario = varied(&shipped(name), |file| {
         file.solver.optimizer = Some(optimizer);
         file.solver.guess = Some(Guess::Named(guess));
     });
-    plan(&scenario, &mut |_| Control::Continue).unwrap()
+    Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap()
 }
 
 /// The same solves on the way, the same iterations and the same plan.
@@ -19,12 +19,12 @@ fn planned(name: &str, optimizer: Optimizer, guess: NamedGuess) -> Plan {
 fn agree(name: &str, guess: NamedGuess) {
     let [own, ipopt] =
         [Optimizer::Interior, Optimizer::Ipopt].map(|optimizer| planned(name, optimizer, guess));
-    assert_eq!(own.optimizer, UsedOptimizer::Interior, "{name}");
-    assert_eq!(ipopt.optimizer, UsedOptimizer::Ipopt, "{name}");
-    assert_eq!(own.status, ipopt.status, "{name}");
-    assert_eq!(solves(&own.attempts), solves(&ipopt.attempts), "{name}");
-    let difference = (own.objective - ipopt.objective).abs();
-    assert!(difference <= 1e-9 * ipopt.objective, "{name}: {difference:e}");
+    assert_eq!(own.solution.versions.optimizer, UsedOptimizer::Interior, "{name}");
+    assert_eq!(ipopt.solution.versions.optimizer, UsedOptimizer::Ipopt, "{name}");
+    assert_eq!(own.solution.status, ipopt.solution.status, "{name}");
+    assert_eq!(solves(&own.solution.attempts), solves(&ipopt.solution.attempts), "{name}");
+    let difference = (own.solution.objective - ipopt.solution.objective).abs();
+    assert!(difference <= 1e-9 * ipopt.solution.objective, "{name}: {difference:e}");
     let largest = (own.trajectory.nodes().iter().zip(ipopt.trajectory.nodes()))
         .flat_map(|(own, ipopt)| own.joint_angles_rad.iter().zip(&ipopt.joint_angles_rad))
         .fold(0.0_f64, |largest, (own, ipopt)| largest.max((own - ipopt).abs()));
@@ -58,22 +58,30 @@ fn the_papers_guess_ends_where_casadi_ends() {
         let scenario = varied(&shipped(&format!("{name}_full")), |file| {
             file.solver.guess = Some(Guess::Named(NamedGuess::Constant));
         });
-        let plan = plan(&scenario, &mut |_| Control::Continue).unwrap();
-        assert_eq!(plan.optimizer, UsedOptimizer::Ipopt, "{name}");
-        let apart = plan.objective / reference - 1.0;
-        assert!(apart.abs() < 1e-6, "{name}: {} is {apart:e} from {reference}", plan.objective);
-        assert_eq!(plan.iterations, iterations, "{name}");
+        let plan = Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap();
+        assert_eq!(plan.solution.versions.optimizer, UsedOptimizer::Ipopt, "{name}");
+        let apart = plan.solution.objective / reference - 1.0;
+        assert!(
+            apart.abs() < 1e-6,
+            "{name}: {} is {apart:e} from {reference}",
+            plan.solution.objective
+        );
+        assert_eq!(plan.solution.iterations, iterations, "{name}");
     }
 }
 
 #[test]
 fn ipopt_makes_what_is_delivered_and_the_interior_solver_what_leads_there() {
     for name in ["slew_4dof", "detumble_canadarm2", "slew_2dof_full"] {
-        let plan = plan(&shipped(name), &mut |_| Control::Continue).unwrap();
-        assert_eq!(plan.optimizer, UsedOptimizer::Ipopt, "{name}");
-        let (last, before) = plan.attempts.split_last().unwrap();
+        let plan = Planner::new().plan(&shipped(name), &mut |_| Control::Continue).unwrap();
+        assert_eq!(plan.solution.versions.optimizer, UsedOptimizer::Ipopt, "{name}");
+        let (last, before) = plan.solution.attempts.split_last().unwrap();
         assert_eq!((last.steps, last.optimizer), (600, UsedOptimizer::Ipopt), "{name}");
-        assert_eq!((last.status, last.iterations), (Some(plan.status), plan.iterations), "{name}");
+        assert_eq!(
+            (last.status, last.iterations),
+            (Some(plan.solution.status), plan.solution.iterations),
+            "{name}"
+        );
         assert!(before.len() >= 5, "{name}: {before:?}");
         for attempt in before {
             assert_eq!(attempt.optimizer, UsedOptimizer::Interior, "{name}: {attempt:?}");

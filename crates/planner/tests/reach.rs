@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::Control;
 use righting_planner::reach::{LONGEST, Progress, Quantity, StartedFrom};
-use righting_planner::{Reach, ReachError, ReachSettings, plan, reach};
+use righting_planner::{Planner, Reach, ReachError, ReachSettings, reach};
 use righting_results::{Status, Terminal};
 use righting_scenario::Scenario;
 use righting_test_support::{shipped, varied};
@@ -22,7 +22,7 @@ fn searched(scenario: &Scenario, settings: ReachSettings) -> Reach {
 /// Whether a cold solve with this duration succeeds.
 fn succeeds_in(scenario: &Scenario, duration_s: f64) -> bool {
     let scenario = varied(scenario, |file| file.horizon.duration_s = duration_s);
-    let plan = plan(&scenario, &mut |_| Control::Continue).unwrap();
+    let plan = Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap();
     verify(&scenario, &plan.trajectory).passed
 }
 
@@ -56,7 +56,7 @@ fn the_shortest_duration_lies_between_failures_and_successes() {
     // The plan at the edge is the evidence.
     let edge = found.plan.as_ref().unwrap();
     assert_eq!(edge.scenario.horizon().duration_s, pass);
-    assert!(verify(&edge.scenario, &edge.plan.trajectory).passed);
+    assert!(verify(&edge.scenario, &edge.planned.trajectory).passed);
     // The weights give up before the arm does.
     assert!(found.notes[0].contains("effort costs too much"), "{:?}", found.notes);
     let cheap = varied(&scenario, |file| file.weights.control = Some(1e-5));
@@ -90,7 +90,7 @@ fn the_largest_angle_keeps_its_sign() {
     assert!(found.tries.iter().all(|tried| tried.angle_deg.is_some_and(|angle| angle < 0.0)));
     let edge = found.plan.unwrap();
     assert_eq!(edge.scenario.resolved().maneuver.angle_deg, Some(-pass));
-    assert!(Terminal::reached(&edge.scenario, &edge.plan.trajectory).attitude_error <= 1e-3);
+    assert!(Terminal::reached(&edge.scenario, &edge.planned.trajectory).attitude_error <= 1e-3);
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn no_clear_posture_has_more_inertia_than_the_bound_says() {
         }
         assert!(0.8 * largest < most && most <= largest, "{name}: {most} {largest}");
         // A plan climbs towards the posture of most inertia too.
-        let plan = plan(&scenario, &mut |_| Control::Continue).unwrap();
+        let plan = Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap();
         let end = &plan.trajectory.end().joint_angles_rad;
         let inertia = system.model.locked_inertia(end).symmetric_eigenvalues().max();
         assert!(inertia <= largest * (1.0 + 1e-6), "{name}: {inertia} {largest}");

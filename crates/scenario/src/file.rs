@@ -177,6 +177,10 @@ pub struct Solver {
     )]
     #[schemars(with = "Option<u64>", range(min = 1, max = 1_000_000))]
     pub max_iterations: Option<f64>,
+    /// Wall time after which a plan is stopped, s; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(max = 1e6), extend("exclusiveMinimum" = 0))]
+    pub time_limit_s: Option<f64>,
     /// Convergence tolerance of the optimizer; 1e-8 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-14, max = 1e-2))]

@@ -1,6 +1,7 @@
 //! A maneuver to plan, checked: what a scenario file means.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use nalgebra::Vector3;
 use righting_multibody::Quaternion;
@@ -29,6 +30,7 @@ const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e3);
 const SLEW_ANGLE_DEG: Bounds = Bounds::Between(-180.0, 180.0);
 const AXIS: Bounds = Bounds::Between(-1e6, 1e6);
 const ITERATIONS: Bounds = Bounds::Whole(1.0, MAX_ITERATIONS as f64);
+const TIME_LIMIT_S: Bounds = Bounds::Above(0.0, 1e6);
 const TOLERANCE: Bounds = Bounds::Between(1e-14, 1e-2);
 
 /// A checked scenario. SI units and radians; nothing in it can be wrong.
@@ -108,6 +110,8 @@ pub struct SolverSettings {
     pub max_iterations: usize,
     /// Convergence tolerance.
     pub tolerance: f64,
+    /// Wall time after which a plan is stopped.
+    pub time_limit: Option<Duration>,
 }
 
 impl Scenario {
@@ -433,10 +437,20 @@ fn solver(solver: &file::Solver, place: &Place) -> Result<SolverSettings, Error>
     Ok(SolverSettings {
         formulation: solver.formulation.unwrap_or_default(),
         guess: solver.guess.unwrap_or(Guess::Named(NamedGuess::Auto)),
-        optimizer: solver.optimizer.unwrap_or_default(),
+        optimizer: match solver.optimizer.unwrap_or_default() {
+            Optimizer::Auto => Optimizer::Ipopt,
+            named => named,
+        },
         linear_solver: solver.linear_solver.unwrap_or_default(),
         max_iterations: place.key("max_iterations").within(max_iterations, ITERATIONS)? as usize,
         tolerance: place.key("tolerance").within(tolerance, TOLERANCE)?,
+        time_limit: match solver.time_limit_s {
+            Some(limit_s) => {
+                let limit_s = place.key("time_limit_s").within(limit_s, TIME_LIMIT_S)?;
+                Some(Duration::from_secs_f64(limit_s))
+            }
+            None => None,
+        },
     })
 }
 
@@ -449,6 +463,7 @@ impl SolverSettings {
             linear_solver: Some(self.linear_solver),
             max_iterations: Some(self.max_iterations as f64),
             tolerance: Some(self.tolerance),
+            time_limit_s: self.time_limit.map(|limit| limit.as_secs_f64()),
         }
     }
 }

@@ -1,5 +1,6 @@
 use righting_ocp::Control;
-use righting_planner::plan;
+use righting_planner::Planner;
+use righting_results::Timing;
 use righting_scenario::Scenario;
 use serde_json::{Value, json};
 
@@ -7,15 +8,13 @@ use crate::{Outcome, peak_mib};
 
 /// One plan, as the program makes it.
 pub fn measured(scenario: &Scenario) -> Outcome<Value> {
-    let plan = plan(scenario, &mut |_| Control::Continue)?;
-    let timing = plan.timing;
-    let [trace, guess, solve] =
-        [timing.trace, timing.guess, timing.solve].map(|time| time.as_secs_f64());
+    let plan = Planner::new().plan(scenario, &mut |_| Control::Continue)?;
+    let Timing { trace, guess, solve, .. } = plan.solution.timing_s;
     Ok(json!({
-        "status": plan.status,
-        "objective": plan.objective,
-        "iterations": plan.iterations,
-        "linear_solver": format!("{:?}", plan.linear_solver),
+        "status": plan.solution.status,
+        "objective": plan.solution.objective,
+        "iterations": plan.solution.iterations,
+        "linear_solver": plan.solution.versions.linear_solver,
         "plan_s": trace + guess + solve,
         "trace_s": trace,
         "guess_s": guess,

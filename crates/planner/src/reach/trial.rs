@@ -1,17 +1,14 @@
 //! Solving one variant of a scenario until it succeeds or has had every chance.
 
 use std::path::Path;
-use std::time::Instant;
 
 use righting_ocp::Control;
 
 use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
-use crate::planner::{Plan, plan, plan_from};
+use crate::planner::Planner;
 use righting_results::solution::{IterationRecord, Status, Terminal};
-use righting_results::verification::Verification;
 use righting_scenario::file::{Guess, RandomStarts};
 use righting_scenario::scenario::{Maneuver, Scenario};
-use righting_verifier::verify;
 
 /// To see whether effort stands in the way, its weight is multiplied by this.
 const CHEAP_EFFORT: f64 = 1e-3;
@@ -69,8 +66,13 @@ impl<'a> Trials<'a> {
             if self.is_interrupted {
                 return Ok(None);
             }
-            iterations +=
-                found.plan.attempts.iter().map(|attempt| attempt.iterations).sum::<usize>();
+            iterations += found
+                .planned
+                .solution
+                .attempts
+                .iter()
+                .map(|attempt| attempt.iterations)
+                .sum::<usize>();
             let succeeded = self.succeeds(&found);
             if succeeded || best.as_ref().is_none_or(|(_, best)| self.misses_less(&found, best)) {
                 best = Some((start, found));
@@ -97,18 +99,17 @@ impl<'a> Trials<'a> {
     pub(super) fn what_is_in_the_way(&mut self) -> Result<Option<String>, ReachError> {
         let Some((value, failed)) = self.failure.take() else { return Ok(None) };
         let weight = CHEAP_EFFORT * failed.scenario.weights().control;
-        if !failed.plan.status.is_acceptable() || weight == 0.0 {
+        if !failed.planned.solution.status.is_acceptable() || weight == 0.0 {
             return Ok(None);
         }
         let mut file = failed.scenario.resolved().clone();
         file.weights.control = Some(weight);
         let cheap = Scenario::from_file(file, Path::new(self.scenario.name()))?;
         let watch = &mut *self.watch;
-        let plan = plan_from(&cheap, &failed.plan.trajectory, &mut |record| {
-            watch(Progress::Iteration(record))
-        })?;
-        let found = Self::checked(&cheap, plan);
-        if found.plan.status == Status::Interrupted {
+        let mut planner = Planner::new().warm_start(&failed.planned.trajectory);
+        let planned = planner.plan(&cheap, &mut |record| watch(Progress::Iteration(record)))?;
+        let found = Reached { scenario: cheap, planned };
+        if found.planned.solution.status == Status::Interrupted {
             self.is_interrupted = true;
             return Ok(None);
         }
@@ -147,34 +148,26 @@ impl<'a> Trials<'a> {
             stop |= watch(Progress::Iteration(record)) == Control::Stop;
             if stop { Control::Stop } else { Control::Continue }
         };
-        let plan = match (start, self.successes.last()) {
+        let planned = match (start, self.successes.last()) {
             (StartedFrom::Neighbor, Some((_, neighbor))) => {
-                plan_from(scenario, &neighbor.plan.trajectory, &mut on_iteration)?
+                let mut planner = Planner::new().warm_start(&neighbor.planned.trajectory);
+                planner.plan(scenario, &mut on_iteration)?
             }
             (StartedFrom::Random, _) => {
                 let mut file = scenario.resolved().clone();
                 let starts = self.settings.starts;
                 file.solver.guess = Some(Guess::Starts(RandomStarts { starts, seed: 0 }));
                 let many = Scenario::from_file(file, Path::new(self.scenario.name()))?;
-                plan(&many, &mut on_iteration)?
+                Planner::new().plan(&many, &mut on_iteration)?
             }
-            _ => plan(scenario, &mut on_iteration)?,
+            _ => Planner::new().plan(scenario, &mut on_iteration)?,
         };
-        self.is_interrupted |= stop || plan.status == Status::Interrupted;
-        Ok(Self::checked(scenario, plan))
-    }
-
-    fn checked(scenario: &Scenario, plan: Plan) -> Reached {
-        let started = Instant::now();
-        let verification = match plan.status.is_acceptable() {
-            true => verify(scenario, &plan.trajectory),
-            false => Verification::default(),
-        };
-        Reached { scenario: scenario.clone(), plan, verification, verify: started.elapsed() }
+        self.is_interrupted |= stop || planned.solution.status == Status::Interrupted;
+        Ok(Reached { scenario: scenario.clone(), planned })
     }
 
     fn succeeds(&self, found: &Reached) -> bool {
-        found.verification.passed
+        found.planned.solution.verification.passed
             && self.goal_deg_s.is_none_or(|goal| terminal(found).angular_rate_deg_s <= goal)
     }
 
@@ -187,7 +180,7 @@ impl<'a> Trials<'a> {
                 Some(_) => terminal.angular_rate_deg_s,
                 None => terminal.attitude_error,
             };
-            (!found.plan.status.is_acceptable(), missed)
+            (!found.planned.solution.status.is_acceptable(), missed)
         };
         let ((a_failed, a_missed), (b_failed, b_missed)) = (rank(a), rank(b));
         a_failed.cmp(&b_failed).then(a_missed.total_cmp(&b_missed)).is_lt()
@@ -202,9 +195,11 @@ impl<'a> Trials<'a> {
     ) -> Try {
         let terminal = terminal(found);
         let succeeded = self.succeeds(found);
-        let shortfall = match (succeeded, found.verification.failures().next()) {
+        let shortfall = match (succeeded, found.planned.solution.verification.failures().next()) {
             (true, _) => None,
-            (false, _) if !found.plan.status.is_acceptable() => Some("no plan".to_owned()),
+            (false, _) if !found.planned.solution.status.is_acceptable() => {
+                Some("no plan".to_owned())
+            }
             (false, Some(check)) => Some(check.to_string()),
             (false, None) => self.goal_deg_s.map(|goal| {
                 let left = terminal.angular_rate_deg_s;
@@ -218,12 +213,12 @@ impl<'a> Trials<'a> {
                 Maneuver::Detumble => None,
             },
             succeeded,
-            is_verified: found.verification.passed,
-            status: found.plan.status,
+            is_verified: found.planned.solution.verification.passed,
+            status: found.planned.solution.status,
             start,
             neighbor,
             iterations,
-            objective: found.plan.objective,
+            objective: found.planned.solution.objective,
             terminal,
             shortfall,
         }
@@ -238,5 +233,5 @@ impl<'a> Trials<'a> {
 }
 
 fn terminal(found: &Reached) -> Terminal {
-    Terminal::reached(&found.scenario, &found.plan.trajectory)
+    found.planned.solution.terminal
 }

@@ -4,8 +4,8 @@ use righting_ocp::{
 };
 
 use crate::formulation::{Coordinates, FormulatedManeuver};
-use crate::planner::record;
-use crate::starts::Swings;
+use crate::initial_guess::InitialGuesses;
+use crate::planned::record;
 use righting_results::solution::IterationRecord;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
@@ -25,8 +25,12 @@ impl Model {
         Ok(Self { functions: StageFunctions::compile(&problem)?, coordinates, initial })
     }
 
-    pub(super) fn swings<'a>(&'a self, scenario: &'a Scenario, steps: usize) -> Swings<'a> {
-        Swings { scenario, coordinates: &self.coordinates, initial: &self.initial, steps }
+    pub(super) fn initial_guesses<'a>(
+        &'a self,
+        scenario: &'a Scenario,
+        steps: usize,
+    ) -> InitialGuesses<'a> {
+        InitialGuesses { scenario, coordinates: &self.coordinates, initial: &self.initial, steps }
     }
 
     pub(super) fn solve(

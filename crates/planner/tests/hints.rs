@@ -1,7 +1,7 @@
 //! A slew that misses its target says what would help, and that does help.
 
 use righting_ocp::Control;
-use righting_planner::{Plan, plan};
+use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
 use righting_test_support::{shipped, varied};
 use righting_verifier::verify;
@@ -15,8 +15,8 @@ fn slew_in(duration_s: f64, control: f64) -> Scenario {
     })
 }
 
-fn planned(scenario: &Scenario) -> Plan {
-    plan(scenario, &mut |_| Control::Continue).unwrap()
+fn planned(scenario: &Scenario) -> Planned {
+    Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
 }
 
 fn passes(scenario: &Scenario) -> bool {
@@ -32,7 +32,7 @@ fn suggested_s(notes: &[String]) -> f64 {
 #[test]
 fn where_effort_costs_too_much_less_weight_or_more_time_helps() {
     let scenario = slew_in(8.0, 0.1);
-    let notes = planned(&scenario).notes;
+    let notes = planned(&scenario).solution.notes;
     assert!(notes[0].starts_with("misses its target by 0."), "{notes:?}");
     assert!(notes[1].contains("no joint is at a limit"), "{notes:?}");
     let longer_s = suggested_s(&notes);
@@ -43,7 +43,7 @@ fn where_effort_costs_too_much_less_weight_or_more_time_helps() {
 #[test]
 fn where_limits_are_in_the_way_they_are_named_and_more_time_helps() {
     let scenario = slew_in(6.0, 0.1);
-    let notes = planned(&scenario).notes;
+    let notes = planned(&scenario).solution.notes;
     assert!(notes.iter().any(|note| note.contains("limit") && note.ends_with("% of the time")));
     assert!(notes.iter().any(|note| note.contains("righting reach")), "{notes:?}");
     let longer_s = suggested_s(&notes);
@@ -54,11 +54,11 @@ fn where_limits_are_in_the_way_they_are_named_and_more_time_helps() {
 #[test]
 fn a_slew_that_nothing_asks_for_says_so() {
     let aimless = varied(&slew_in(30.0, 0.01), |file| file.weights.attitude = Some(0.0));
-    let notes = planned(&aimless).notes;
+    let notes = planned(&aimless).solution.notes;
     assert_eq!(notes[1..], ["nothing asks for the target: weights.attitude is 0"], "{notes:?}");
 }
 
 #[test]
 fn a_slew_that_arrives_has_nothing_to_say() {
-    assert!(planned(&slew_in(30.0, 0.01)).notes.is_empty());
+    assert!(planned(&slew_in(30.0, 0.01)).solution.notes.is_empty());
 }

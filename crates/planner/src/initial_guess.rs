@@ -1,6 +1,6 @@
 //! Trajectories to start the optimizer from.
 
-mod loops;
+mod joint_loops;
 
 use std::f64::consts::PI;
 
@@ -20,9 +20,9 @@ const NEARER_RAD: f64 = 1e-3;
 /// Share of the way to a joint's limit that a swing may take.
 const LIMIT_SHARE: f64 = 0.8;
 
-/// Starts in which every joint swings smoothly, rest to rest, to somewhere within its limits, and
+/// Starts in which every joint guesses smoothly, rest to rest, to somewhere within its limits, and
 /// some of the way back. The base's attitude is held. Swing `index` is the same every time.
-pub(crate) struct Swings<'a> {
+pub(crate) struct InitialGuesses<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) coordinates: &'a Coordinates,
     /// x_0.
@@ -30,27 +30,27 @@ pub(crate) struct Swings<'a> {
     pub(crate) steps: usize,
 }
 
-impl Swings<'_> {
+impl InitialGuesses<'_> {
     /// The state held at the start, no control: the paper's guess.
     pub(crate) fn constant(&self) -> Guess {
         Guess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
     }
 
-    /// Swings `first`, `first + 1`, … without end.
-    pub(crate) fn from(&self, first: u64) -> impl Iterator<Item = Guess> {
+    /// InitialGuesses `first`, `first + 1`, … without end.
+    pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = Guess> {
         let joints = self.scenario.system().joint_count();
         // Two points a swing: how far each joint goes, and how much of it stays.
         let mut points = Halton::starting_after(joints, 2 * first);
         std::iter::from_fn(move || Some(self.swing(&points.next()?, &points.next()?)))
     }
 
-    /// The `count` of the first `screened` swings after which the base turns slowest once they are
+    /// The `count` of the first `screened` guesses after which the base turns slowest once they are
     /// rolled out.
-    pub(crate) fn slowest(&self, screened: usize, count: usize) -> Vec<Guess> {
+    pub(crate) fn least_final_rate(&self, screened: usize, count: usize) -> Vec<Guess> {
         let mut rolled: Vec<(f64, Guess)> = self
-            .from(0)
+            .low_discrepancy(0)
             .take(screened)
-            .map(|swing| self.rolled_out(swing))
+            .map(|swing| self.simulated(swing))
             .map(|swing| {
                 let end = self.coordinates.free_floating_state(swing.states.row(self.steps));
                 (end.angular_rate.norm(), swing)
@@ -61,7 +61,7 @@ impl Swings<'_> {
     }
 
     /// The motion that the guess's controls make: its base turns as momentum has it.
-    pub(crate) fn rolled_out(&self, mut guess: Guess) -> Guess {
+    pub(crate) fn simulated(&self, mut guess: Guess) -> Guess {
         let step_s = self.scenario.horizon().duration_s / self.steps as f64;
         let mut x = self.initial.to_vec();
         for step in 0..self.steps {
@@ -83,7 +83,7 @@ impl Swings<'_> {
 
     /// The motion of an earlier plan of the same arm, or its image where that ends nearer to the
     /// target, stretched to this horizon and shifted to this maneuver's first posture.
-    pub(crate) fn along(&self, plan: &Trajectory) -> Guess {
+    pub(crate) fn along_trajectory(&self, plan: &Trajectory) -> Guess {
         let mut guess = self.constant();
         let image = self.nearest_image(plan);
         let plan = image.as_ref().unwrap_or(plan);

@@ -2,7 +2,7 @@
 //! plan saves iterations.
 
 use righting_ocp::Control;
-use righting_planner::{Plan, PlanError, plan, plan_from};
+use righting_planner::{PlanError, Planned, Planner};
 use righting_results::solution::AttemptRecord;
 use righting_results::{Status, Terminal};
 use righting_scenario::Scenario;
@@ -10,8 +10,8 @@ use righting_scenario::file::{Guess, NamedGuess, RandomStarts};
 use righting_test_support::{motion, shipped, solves, varied};
 use righting_verifier::verify;
 
-fn planned(scenario: &Scenario) -> Plan {
-    plan(scenario, &mut |_| Control::Continue).unwrap()
+fn planned(scenario: &Scenario) -> Planned {
+    Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
 }
 
 /// The arm of a detumble straight up, where every joint's pull on the base vanishes by symmetry.
@@ -30,10 +30,14 @@ fn a_saddle_is_left() {
         let plan = planned(&scenario);
         let reached = Terminal::reached(&scenario, &plan.trajectory);
         let reduction = reached.reduction_percent(&scenario);
-        assert_eq!(plan.status, Status::Solved, "{name}");
+        assert_eq!(plan.solution.status, Status::Solved, "{name}");
         assert!(reduction >= 45.0, "{name}: {reduction} %");
         assert!(reached.joint_rate_deg_s < 1.0, "{name}: {} deg/s", reached.joint_rate_deg_s);
-        assert!(plan.notes[0].starts_with("left a stationary point"), "{name}: {:?}", plan.notes);
+        assert!(
+            plan.solution.notes[0].starts_with("left a stationary point"),
+            "{name}: {:?}",
+            plan.solution.notes
+        );
         assert!(verify(&scenario, &plan.trajectory).passed, "{name}");
     }
 }
@@ -48,10 +52,15 @@ fn a_saddle_is_left_where_the_solve_ends_on_its_first_point() {
         });
         let joints = scenario.system().joint_count();
         let still = motion(&scenario, &vec![vec![0.0; joints]; 20]);
-        let plan = plan_from(&scenario, &still, &mut |_| Control::Continue).unwrap();
+        let plan =
+            Planner::new().warm_start(&still).plan(&scenario, &mut |_| Control::Continue).unwrap();
         let reached = Terminal::reached(&scenario, &plan.trajectory);
         assert!(reached.reduction_percent(&scenario) >= 45.0, "{name}: {reached:?}");
-        assert!(plan.notes[0].starts_with("left a stationary point"), "{name}: {:?}", plan.notes);
+        assert!(
+            plan.solution.notes[0].starts_with("left a stationary point"),
+            "{name}: {:?}",
+            plan.solution.notes
+        );
     }
 }
 
@@ -59,7 +68,7 @@ fn a_saddle_is_left_where_the_solve_ends_on_its_first_point() {
 fn a_minimum_is_not_taken_for_a_saddle() {
     for name in ["slew_2dof", "detumble_2dof", "slew_4dof", "detumble_4dof"] {
         let scenario = varied(&shipped(name), |file| file.horizon.steps = 120.0);
-        assert!(planned(&scenario).notes.is_empty(), "{name}");
+        assert!(planned(&scenario).solution.notes.is_empty(), "{name}");
     }
 }
 
@@ -70,7 +79,7 @@ fn the_automatic_guess_detumbles_from_straight_up() {
     let plan = planned(&scenario);
     let reached = Terminal::reached(&scenario, &plan.trajectory);
     assert!(reached.reduction_percent(&scenario) >= 49.0, "{reached:?}");
-    assert!(plan.objective < 3.33, "{}", plan.objective);
+    assert!(plan.solution.objective < 3.33, "{}", plan.solution.objective);
 }
 
 fn turned_by(angle_deg: f64) -> Scenario {
@@ -82,9 +91,9 @@ fn turned_by(angle_deg: f64) -> Scenario {
 }
 
 /// On the coarse grid: the constant start, which comes first, and the earlier plan's, the last.
-fn coarse_attempts(plan: &Plan) -> (&AttemptRecord, &AttemptRecord) {
-    let first = &plan.attempts[0];
-    let mut coarse = plan.attempts.iter().filter(|attempt| attempt.steps == first.steps);
+fn coarse_attempts(plan: &Planned) -> (&AttemptRecord, &AttemptRecord) {
+    let first = &plan.solution.attempts[0];
+    let mut coarse = plan.solution.attempts.iter().filter(|attempt| attempt.steps == first.steps);
     (first, coarse.next_back().unwrap())
 }
 
@@ -93,11 +102,19 @@ fn the_neighboring_angle_s_plan_saves_iterations() {
     let neighbor = planned(&turned_by(75.0));
     let scenario = turned_by(72.0);
     let cold = planned(&scenario);
-    let warm = plan_from(&scenario, &neighbor.trajectory, &mut |_| Control::Continue).unwrap();
-    assert_eq!((cold.status, warm.status), (Status::Solved, Status::Solved));
+    let warm = Planner::new()
+        .warm_start(&neighbor.trajectory)
+        .plan(&scenario, &mut |_| Control::Continue)
+        .unwrap();
+    assert_eq!((cold.solution.status, warm.solution.status), (Status::Solved, Status::Solved));
     let (from_constant, from_neighbor) = coarse_attempts(&warm);
-    assert!(from_neighbor.iterations < from_constant.iterations, "{:?}", warm.attempts);
-    assert!(warm.objective <= cold.objective * 1.001, "{} {}", warm.objective, cold.objective);
+    assert!(from_neighbor.iterations < from_constant.iterations, "{:?}", warm.solution.attempts);
+    assert!(
+        warm.solution.objective <= cold.solution.objective * 1.001,
+        "{} {}",
+        warm.solution.objective,
+        cold.solution.objective
+    );
     assert!(verify(&scenario, &warm.trajectory).passed);
 }
 
@@ -109,11 +126,14 @@ fn a_plan_of_another_duration_and_grid_is_a_start_too() {
         file.horizon.duration_s *= 1.25;
     });
     let cold = planned(&scenario);
-    let warm = plan_from(&scenario, &neighbor.trajectory, &mut |_| Control::Continue).unwrap();
-    assert_eq!(warm.status, Status::Solved);
+    let warm = Planner::new()
+        .warm_start(&neighbor.trajectory)
+        .plan(&scenario, &mut |_| Control::Continue)
+        .unwrap();
+    assert_eq!(warm.solution.status, Status::Solved);
     let (from_constant, from_neighbor) = coarse_attempts(&warm);
-    assert!(from_neighbor.iterations < from_constant.iterations, "{:?}", warm.attempts);
-    assert!(warm.objective <= cold.objective * (1.0 + 1e-6));
+    assert!(from_neighbor.iterations < from_constant.iterations, "{:?}", warm.solution.attempts);
+    assert!(warm.solution.objective <= cold.solution.objective * (1.0 + 1e-6));
 }
 
 #[test]
@@ -131,10 +151,17 @@ fn mirrored_starts_give_mirrored_plans() {
     let mirrored = varied(&slew([-0.5, 0.6, -0.62]), |file| {
         file.solver.guess = Some(Guess::Named(NamedGuess::Constant));
     });
-    let image = plan_from(&mirrored, &plan.trajectory, &mut |_| Control::Continue).unwrap();
+    let image = Planner::new()
+        .warm_start(&plan.trajectory)
+        .plan(&mirrored, &mut |_| Control::Continue)
+        .unwrap();
     let (from_constant, from_image) = coarse_attempts(&image);
-    assert!(from_image.iterations < from_constant.iterations, "{:?}", image.attempts);
-    assert!((image.objective / plan.objective - 1.0).abs() < 1e-6, "{}", image.objective);
+    assert!(from_image.iterations < from_constant.iterations, "{:?}", image.solution.attempts);
+    assert!(
+        (image.solution.objective / plan.solution.objective - 1.0).abs() < 1e-6,
+        "{}",
+        image.solution.objective
+    );
     for (node, other) in plan.trajectory.nodes().iter().zip(image.trajectory.nodes()) {
         let angles = node.joint_angles_rad.iter().zip(&other.joint_angles_rad);
         for ((angle, other), sign) in angles.zip([-1.0, 1.0, 1.0, 1.0]) {
@@ -147,7 +174,9 @@ fn mirrored_starts_give_mirrored_plans() {
 fn a_plan_of_another_arm_is_refused() {
     let four = varied(&shipped("slew_4dof"), |file| file.horizon.steps = 20.0);
     let earlier = planned(&four);
-    let refused = plan_from(&shipped("slew_2dof"), &earlier.trajectory, &mut |_| Control::Continue);
+    let refused = Planner::new()
+        .warm_start(&earlier.trajectory)
+        .plan(&shipped("slew_2dof"), &mut |_| Control::Continue);
     assert!(matches!(refused, Err(PlanError::Shape(_))));
 }
 
@@ -158,9 +187,13 @@ fn without_a_plan_there_are_ways_open() {
         file.solver.max_iterations = Some(2.0);
     });
     let plan = planned(&scenario);
-    assert_eq!(plan.status, Status::IterationLimit);
+    assert_eq!(plan.solution.status, Status::IterationLimit);
     for way in ["solver.max_iterations", "horizon.duration_s 45", "solver.guess"] {
-        assert!(plan.notes.iter().any(|note| note.contains(way)), "{way}: {:?}", plan.notes);
+        assert!(
+            plan.solution.notes.iter().any(|note| note.contains(way)),
+            "{way}: {:?}",
+            plan.solution.notes
+        );
     }
 }
 
@@ -175,6 +208,10 @@ fn one_seed_gives_one_plan() {
     };
     let [first, second, other] = [5, 5, 6].map(seeded);
     assert_eq!(first.trajectory, second.trajectory);
-    assert_eq!(solves(&first.attempts), solves(&second.attempts));
-    assert_ne!(solves(&first.attempts), solves(&other.attempts), "another seed tries other starts");
+    assert_eq!(solves(&first.solution.attempts), solves(&second.solution.attempts));
+    assert_ne!(
+        solves(&first.solution.attempts),
+        solves(&other.solution.attempts),
+        "another seed tries other starts"
+    );
 }

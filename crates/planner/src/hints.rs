@@ -18,11 +18,7 @@ const MORE_STARTS: &str = r#"another start may get there: try solver.guess {"sta
 
 /// Which ways are open after a solve that did not converge or misses its target; nothing to say
 /// after any other.
-pub(crate) fn open_ways(
-    scenario: &Scenario,
-    trajectory: &Trajectory,
-    status: Status,
-) -> Vec<String> {
+pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status) -> Vec<String> {
     let mut ways = Vec::new();
     match status {
         Status::Interrupted => return ways,

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use righting_multibody::Quaternion;
 use righting_ocp::Guess;
 
-use super::{LIMIT_SHARE, Swings};
+use super::{InitialGuesses, LIMIT_SHARE};
 
 /// How often a start goes around its loop.
 const MOST_TURNS: usize = 3;
@@ -44,13 +44,13 @@ struct Curvature {
     values: Vec<Vector3<f64>>,
 }
 
-impl Swings<'_> {
+impl InitialGuesses<'_> {
     /// Loops that turn the base towards `target`, once around or a few times, from each quarter of
     /// the loop. The joints come back to where they were; the attitude is interpolated (slerp), which
     /// leads to better plans, in fewer iterations, than the attitude that the loop makes.
     ///
     /// None where no small loop around the first posture turns the base about the axis.
-    pub(crate) fn loops(&self, target: &Quaternion<f64>) -> Vec<Guess> {
+    pub(crate) fn joint_loops(&self, target: &Quaternion<f64>) -> Vec<Guess> {
         let initial = self.scenario.initial();
         let (axis, angle_rad) = initial.attitude.conjugate().product(target).to_axis_angle();
         let curvature = self.curvature(&initial.joint_angles_rad);
@@ -109,7 +109,7 @@ impl Swings<'_> {
                 guess.controls.row_mut(step)[joint] = acceleration.clamp(-most, most);
             }
         }
-        self.rolled_out(guess)
+        self.simulated(guess)
     }
 
     /// The same joint motion while the base turns evenly about `axis`, from rest to rest.
@@ -226,14 +226,14 @@ mod tests {
     const STEPS: usize = 200;
 
     /// Calls with the starts of a slew of the 4-DOF arm, bent.
-    fn with_swings(check: impl FnOnce(&Swings<'_>)) {
+    fn with_swings(check: impl FnOnce(&InitialGuesses<'_>)) {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/slew_4dof.json");
         let mut changed = Scenario::read(&file).unwrap().resolved().clone();
         changed.initial.joint_angles_deg = vec![20.0, 30.0, -20.0, 10.0];
         let scenario = Scenario::from_file(changed, &file).unwrap();
         let FormulatedManeuver { coordinates, initial, .. } =
             FormulatedManeuver::in_form(&scenario, Formulation::Reduced);
-        check(&Swings {
+        check(&InitialGuesses {
             scenario: &scenario,
             coordinates: &coordinates,
             initial: &initial,
@@ -243,20 +243,20 @@ mod tests {
 
     #[test]
     fn a_small_loop_turns_the_base_by_its_area_times_the_curvature() {
-        with_swings(|swings| {
-            let curvature = swings.curvature(&swings.scenario.initial().joint_angles_rad);
+        with_swings(|guesses| {
+            let curvature = guesses.curvature(&guesses.scenario.initial().joint_angles_rad);
             for (i, j) in [(0, 1), (1, 2), (0, 3)] {
                 let unit = |joint| DVector::from_fn(4, |k, _| f64::from(u8::from(k == joint)));
                 let (cosine, sine) = (unit(i), unit(j));
                 let circle = Circle { cosine, sine, turn_per_area: 1.0 };
                 let radius = 0.05;
-                let guess = swings.around(&circle, radius, 1);
-                let end = swings.coordinates.free_floating_state(guess.states.row(STEPS));
+                let guess = guesses.around(&circle, radius, 1);
+                let end = guesses.coordinates.free_floating_state(guess.states.row(STEPS));
                 let (axis, angle_rad) = end.attitude.to_axis_angle();
                 let predicted = curvature.between(i, j) * (PI * radius * radius);
                 let error = (axis * angle_rad - predicted).norm();
                 assert!(error < 0.1 * predicted.norm(), "{i} {j}: {error:e} {predicted}");
-                let moved = end.joint_angles[i] - swings.scenario.initial().joint_angles_rad[i];
+                let moved = end.joint_angles[i] - guesses.scenario.initial().joint_angles_rad[i];
                 assert!(moved.abs() < 1e-3 * radius, "the joints come back: {moved:e}");
             }
         });
@@ -264,15 +264,15 @@ mod tests {
 
     #[test]
     fn a_loop_has_the_size_that_turns_the_base_as_far_as_asked() {
-        with_swings(|swings| {
+        with_swings(|guesses| {
             // Small loops from this posture hardly turn the base about x or y alone.
             for axis in [[0.0, 0.6, 0.8], [-0.6, 0.64, 0.48]] {
                 let axis = Vector3::from(axis);
-                let posture = &swings.scenario.initial().joint_angles_rad;
-                let circle = swings.curvature(posture).best_circle(&axis).unwrap();
+                let posture = &guesses.scenario.initial().joint_angles_rad;
+                let circle = guesses.curvature(posture).best_circle(&axis).unwrap();
                 let angle_rad = 2e-3;
-                let guess = swings.scaled(&circle, 1, &axis, angle_rad);
-                let end = swings.coordinates.free_floating_state(guess.states.row(STEPS));
+                let guess = guesses.scaled(&circle, 1, &axis, angle_rad);
+                let end = guesses.coordinates.free_floating_state(guess.states.row(STEPS));
                 let (about, by_rad) = end.attitude.to_axis_angle();
                 let turned_rad = about.dot(&axis) * by_rad;
                 assert!((turned_rad / angle_rad - 1.0).abs() < 1e-4, "{axis}: {turned_rad:e}");
@@ -282,13 +282,13 @@ mod tests {
 
     #[test]
     fn a_loop_s_attitude_ends_at_the_target() {
-        with_swings(|swings| {
+        with_swings(|guesses| {
             let axis = Vector3::new(0.0, 0.6, 0.8);
             let target = Quaternion::from_axis_angle(&axis, 1.2);
-            let loops = swings.loops(&target);
+            let loops = guesses.joint_loops(&target);
             assert_eq!(loops.len(), MOST_TURNS * PHASES);
             for guess in loops {
-                let end = swings.coordinates.free_floating_state(guess.states.row(STEPS));
+                let end = guesses.coordinates.free_floating_state(guess.states.row(STEPS));
                 assert!(end.attitude.angle_to(&target) < 1e-9);
             }
         });

@@ -1,48 +1,52 @@
-//! Stationary points that are no minimum, and the way out.
+//! Stationary points that are no minimum, and the direction of negative curvature that leads out.
 
 use righting_ocp::{Curvature, Guess, OcpError, Samples, Settings, Solution};
 
-use super::parallel::Batch;
-use super::{SCREENED_SWINGS, Search, coarse_settings};
-use crate::starts::Swings;
-use righting_scenario::scenario::Maneuver;
+use super::batch::Batch;
+use super::{Search, grids, portfolio, settings};
+use crate::initial_guess::InitialGuesses;
 
-/// Swings tried at a time.
-const SWINGS: usize = 6;
+/// Guesses tried at a time.
+const GUESSES: usize = 6;
 /// How many times.
 const ROUNDS: usize = 2;
+/// How many of the better coarse solutions of a round are refined.
+const REFINED: usize = 2;
 /// How far the first step along a direction of negative curvature takes the joint that moves most, rad.
-const WAY_DOWN_RAD: f64 = 0.5;
+const FIRST_STEP_RAD: f64 = 0.5;
 
 impl Search<'_> {
-    /// The plan itself if it is a minimum; otherwise a better one, reached along the direction in
-    /// which the Lagrangian curves downwards, or from swings of the arm that break the symmetry.
-    /// False beside it says that there was none.
-    pub(crate) fn off_saddles(&mut self, plan: Solution) -> Result<(Solution, bool), OcpError> {
-        if !plan.status.is_success() {
-            return Ok((plan, true));
+    /// The solution itself if it is a minimum; otherwise a better one, reached along the direction in
+    /// which the Lagrangian curves downwards, or from other guesses. False beside it says that there
+    /// was none.
+    pub(super) fn leave_saddle(
+        &mut self,
+        solution: Solution,
+    ) -> Result<(Solution, bool), OcpError> {
+        if !solution.status.is_success() {
+            return Ok((solution, true));
         }
-        let way_down = match self.model.curvature(self.grid, &plan)? {
-            Curvature::Upward => return Ok((plan, true)),
+        let direction = match self.model.curvature(self.grid, &solution)? {
+            Curvature::Upward => return Ok((solution, true)),
             Curvature::Downward { controls } => Some(controls),
             Curvature::Flat => None,
         };
         for round in 0..ROUNDS {
-            let way_down = way_down.as_ref().filter(|_| round == 0);
-            let mut coarse = self.downhill_of(&plan, way_down, round * SWINGS)?;
+            let direction = direction.as_ref().filter(|_| round == 0);
+            let mut coarse = self.better_coarse_solutions(&solution, direction, round * GUESSES)?;
             coarse.sort_by(|a, b| a.objective.total_cmp(&b.objective));
-            for start in coarse.into_iter().take(2) {
+            for start in coarse.into_iter().take(REFINED) {
                 if self.is_interrupted() {
-                    return Ok((plan, false));
+                    return Ok((solution, false));
                 }
                 if let Some(found) = self.refined(start)?
-                    && found.objective < plan.objective
+                    && found.objective < solution.objective
                     && self.model.curvature(self.grid, &found)? == Curvature::Upward
                 {
                     self.notes.push(format!(
-                        "left a stationary point that is no minimum (objective {:.6e}) by \
-                         swinging the arm",
-                        plan.objective
+                        "left a stationary point that is no minimum (objective {:.6e}) by moving \
+                         the arm",
+                        solution.objective
                     ));
                     return Ok((found, true));
                 }
@@ -53,31 +57,27 @@ impl Search<'_> {
              at all in some direction, but no start found a better plan"
                 .to_owned(),
         );
-        Ok((plan, false))
+        Ok((solution, false))
     }
 
     /// Solutions on the coarse grid with a smaller objective.
-    fn downhill_of(
+    fn better_coarse_solutions(
         &mut self,
-        plan: &Solution,
-        way_down: Option<&Samples>,
+        saddle: &Solution,
+        direction: Option<&Samples>,
         first: usize,
     ) -> Result<Vec<Solution>, OcpError> {
-        let grid = self.coarse_grid()?;
-        let model = self.scout.as_ref().unwrap_or(&self.model);
-        let swings = model.swings(self.scenario, grid.steps());
-        let cold = coarse_settings(self.scenario);
-        let swung: Vec<Guess> = match self.scenario.maneuver() {
-            Maneuver::Detumble => swings.slowest(SCREENED_SWINGS, ROUNDS * SWINGS),
-            Maneuver::Slew(_) => {
-                let all = swings.from(0).take(ROUNDS * SWINGS);
-                all.map(|swing| swings.rolled_out(swing)).collect()
-            }
-        };
-        let starts: Vec<(Guess, Settings)> = way_down
+        let grid = grids::coarse(self.scenario, &self.grid)?;
+        let model = self.ranking_model.as_ref().unwrap_or(&self.model);
+        let guesses = model.initial_guesses(self.scenario, grid.steps());
+        let cold = settings::coarse(self.scenario);
+        let others = portfolio::guesses_beside_saddle(self.scenario, &guesses, ROUNDS * GUESSES);
+        let starts: Vec<(Guess, Settings)> = direction
             .into_iter()
-            .flat_map(|way| [1.0, -1.0].map(|sign| displaced(&swings, plan, way, sign)))
-            .chain(swung.into_iter().skip(first).take(SWINGS))
+            .flat_map(|direction| {
+                [1.0, -1.0].map(|sign| displaced(&guesses, saddle, direction, sign))
+            })
+            .chain(others.into_iter().skip(first).take(GUESSES))
             .map(|start| (start, cold.clone()))
             .collect();
         let batch = Batch { model, grid, starts: &starts };
@@ -86,25 +86,25 @@ impl Search<'_> {
             self.attempts.append(&mut solution.attempts);
         }
         let is_better = |solution: &Solution| {
-            solution.status.is_success() && solution.objective < plan.objective
+            solution.status.is_success() && solution.objective < saddle.objective
         };
         Ok(solutions.into_iter().filter(is_better).collect())
     }
 }
 
 /// The motion of a plan with its controls changed along `way`, one way or the other.
-fn displaced(swings: &Swings<'_>, plan: &Solution, way: &Samples, sign: f64) -> Guess {
-    let mut guess = swings.constant();
+fn displaced(guesses: &InitialGuesses<'_>, plan: &Solution, way: &Samples, sign: f64) -> Guess {
+    let mut guess = guesses.constant();
     let steps = guess.controls.len();
     let change = averaged(way, steps);
-    let step_s = swings.scenario.horizon().duration_s / steps as f64;
-    let share = sign * WAY_DOWN_RAD / largest_turn(&change, step_s);
+    let step_s = guesses.scenario.horizon().duration_s / steps as f64;
+    let share = sign * FIRST_STEP_RAD / largest_turn(&change, step_s);
     guess.controls = averaged(&plan.controls, steps);
     for step in 0..steps {
         let controls = guess.controls.row_mut(step);
         controls.iter_mut().zip(change.row(step)).for_each(|(u, change)| *u += share * change);
     }
-    swings.rolled_out(guess)
+    guesses.simulated(guess)
 }
 
 /// Controls on a coarser grid: means over its steps.
