@@ -11,13 +11,13 @@ use std::path::{Path, PathBuf};
 use std::process::exit;
 
 use elf::ElfBytes;
-use elf::abi::DT_SONAME;
+use elf::abi::{DT_NEEDED, DT_SONAME};
 use elf::endian::AnyEndian;
 
 const OLDEST: &str = "3.11";
 
 fn main() {
-    println!("cargo:rustc-check-cfg=cfg(ipopt_bool, ipopt_hsl_loader)");
+    println!("cargo:rustc-check-cfg=cfg(ipopt_bool, ipopt_hsl_loader, ipopt_mpi)");
     println!("cargo:rerun-if-changed=build.rs");
 
     let found = pkg_config::Config::new()
@@ -101,20 +101,30 @@ fn note_library(directories: &[PathBuf]) {
     let directory = link.parent().unwrap_or(Path::new("")).to_owned();
     let file = link.canonicalize().unwrap_or_else(|_| link.clone());
     let file_name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let name = soname(&file).unwrap_or_else(|| file_name.clone());
+    let entries = entries(&file).unwrap_or_default();
+    let of = |tag| entries.iter().filter(move |entry| entry.0 == tag).map(|entry| &entry.1);
+    let name = of(DT_SONAME).next().unwrap_or(&file_name);
+    if of(DT_NEEDED).any(|needed| needed.starts_with("libmpi.so")) {
+        println!("cargo:rustc-cfg=ipopt_mpi");
+    }
     println!("cargo:rustc-env=IPOPT_LIBRARY={name}");
     println!("cargo:rustc-env=IPOPT_FILE={file_name}");
     let to_name = if is_system_directory(&directory) { PathBuf::new() } else { directory };
     println!("cargo:rustc-env=IPOPT_DIRECTORY={}", to_name.display());
 }
 
-/// The name that an ELF library gives itself.
-fn soname(file: &Path) -> Option<String> {
+/// Tag and name of what an ELF library calls itself and of what it needs.
+fn entries(file: &Path) -> Option<Vec<(i64, String)>> {
     let bytes = fs::read(file).ok()?;
     let elf = ElfBytes::<AnyEndian>::minimal_parse(&bytes).ok()?;
-    let entry = elf.dynamic().ok()??.iter().find(|entry| entry.d_tag == DT_SONAME)?;
     let (_, names) = elf.dynamic_symbol_table().ok()??;
-    names.get(usize::try_from(entry.d_val()).ok()?).ok().map(str::to_owned)
+    let named = elf
+        .dynamic()
+        .ok()??
+        .into_iter()
+        .filter(|entry| matches!(entry.d_tag, DT_SONAME | DT_NEEDED));
+    let name = |at: u64| names.get(usize::try_from(at).ok()?).ok().map(str::to_owned);
+    named.map(|entry| Some((entry.d_tag, name(entry.d_val())?))).collect()
 }
 
 /// Builds the shared library that stands in for the HSL's: see `src/hsl.rs`.

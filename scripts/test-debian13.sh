@@ -20,6 +20,8 @@ if [ "${1:-}" = --inside ]; then
     mount -t proc proc "$root/proc"
     mount --rbind /sys "$root/sys"
     mount --rbind /dev "$root/dev"
+    # MPI leaves files there when it is killed.
+    mount -t tmpfs none "$root/dev/shm"
     mount --bind -o ro "$SYSROOT" "$root/opt/rust"
     mount --bind -o ro "$REGISTRY" "$root/root/.cargo/registry"
     exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM=dumb CARGO_NET_OFFLINE=true \

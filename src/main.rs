@@ -84,6 +84,9 @@ enum Command {
 
 fn main() -> ExitCode {
     let command = Arguments::parse().command;
+    if command.solves() {
+        optimizer::prepare();
+    }
     let json = command.prints_json();
     if json {
         output::never_in_color();
@@ -111,6 +114,11 @@ fn main() -> ExitCode {
 }
 
 impl Command {
+    /// Whether it solves anything in this process.
+    fn solves(&self) -> bool {
+        matches!(self, Self::Solve(_) | Self::Reach(_) | Self::SweepWorker | Self::Doctor(_))
+    }
+
     fn prints_json(&self) -> bool {
         match self {
             Self::Solve(arguments) => arguments.json,

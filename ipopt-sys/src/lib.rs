@@ -36,5 +36,8 @@ pub const VERSION: &str = env!("IPOPT_VERSION");
 /// The file that held its library then, such as `libipopt.so.3.14.17`; none if it was linked.
 pub const LIBRARY_FILE: Option<&str> = option_env!("IPOPT_FILE");
 
+/// Whether opening it starts MPI, as Debian 13's does for MUMPS; false if it was linked.
+pub const STARTS_MPI: bool = cfg!(ipopt_mpi);
+
 /// Whether that Ipopt has the hooks of the HSL loader, as all have up to 3.13.
 pub const HAS_HSL_LOADER: bool = cfg!(ipopt_hsl_loader);

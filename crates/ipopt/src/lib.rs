@@ -117,7 +117,7 @@ pub use error::SolveError;
 pub use iterate::{Iterate, Violations, current_iterate, current_violations};
 pub use libraries::{Library, Versions, versions};
 pub use righting_ipopt_sys::hsl::SlotError;
-pub use righting_ipopt_sys::{LoadError, use_one_blas_thread};
+pub use righting_ipopt_sys::{LoadError, STARTS_MPI, use_one_blas_thread};
 pub use solve::{solve, solve_with};
 
 pub use righting_nlp::{
