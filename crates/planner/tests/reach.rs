@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::Control;
 use righting_planner::reach::{LONGEST, Progress, Quantity, StartedFrom};
@@ -149,11 +151,8 @@ fn no_clear_posture_has_more_inertia_than_the_bound_says() {
         let system = scenario.system();
         let momentum = scenario.initial().angular_momentum_n_m_s.norm();
         let largest = momentum / rate_bound_rad_s(&scenario);
-        let mut state = 7_u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut uniform = || random.random::<f64>();
         let mut most = 0.0_f64;
         for _ in 0..4000 {
             let limits = system.joint_limits.iter();
