@@ -6,6 +6,7 @@ mod browser;
 #[cfg(target_os = "linux")]
 mod color;
 mod completions;
+mod crates;
 mod documents;
 mod envelope;
 mod export;
