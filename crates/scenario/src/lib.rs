@@ -1,6 +1,6 @@
 //! Scenario, system and wheel files: read, checked, and turned into types that cannot be wrong.
 //!
-//! A file is parsed twice. [`file`] mirrors the JSON; [`Scenario`], [`SystemDescription`] and
+//! A file is parsed twice. [`mod@file`] mirrors the JSON; [`Scenario`], [`SystemDescription`] and
 //! [`WheelArray`] are what it means, in SI units and radians, every default filled in. An error names
 //! the file, the field, what stands there and what is expected there.
 //!
