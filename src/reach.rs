@@ -53,7 +53,7 @@ pub struct Arguments {
     /// Detumble: how many percent above the bound the rate left may be; 2 if not given.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     within: Option<f64>,
-    /// Try so many random starts too before a value counts as failed.
+    /// Try so many more initial guesses (a Halton sequence) too before a value counts as failed.
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u64).range(0..=MAX_STARTS))]
     starts: u64,
@@ -213,7 +213,7 @@ fn show(progress: &Progress, quantity: Quantity, step: reach::Progress<'_>) {
             let start = match start {
                 StartedFrom::Cold => "cold",
                 StartedFrom::Neighbor => "from the nearest success",
-                StartedFrom::Random => "from random starts",
+                StartedFrom::LowDiscrepancy => "from more initial guesses",
             };
             progress.name(format!("{}, {start}: ", shown(value)));
         }

@@ -1,7 +1,6 @@
 //! How far a detumble can go.
 
 use righting_multibody::System;
-
 use righting_scenario::collision::CollisionModel;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;

@@ -17,13 +17,13 @@ pub use directions::fibonacci;
 pub use sizing::Sizing;
 
 use nalgebra::Vector3;
+use righting_scenario::system_description::SystemDescription;
+use righting_scenario::wheels::WheelArray;
 use serde::Serialize;
 
 use crate::hull::{Mesh, convex_hull};
 use crate::zonotope::Zonotope;
 use arm::{Arm, Quantity};
-use righting_scenario::system_description::SystemDescription;
-use righting_scenario::wheels::WheelArray;
 
 /// Momentum and torque envelopes of an arm and of wheels beside it.
 #[derive(Clone, Debug, PartialEq)]

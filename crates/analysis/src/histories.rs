@@ -1,7 +1,6 @@
 //! What a trajectory does not hold but follows from it node by node: momentum and clearances.
 
 use nalgebra::Vector3;
-
 use righting_results::trajectory::Trajectory;
 use righting_scenario::collision::Between;
 use righting_scenario::error::ShapeError;

@@ -13,13 +13,12 @@
 
 use nalgebra::Vector3;
 use righting_multibody::{State, System};
-use serde::Serialize;
-
 use righting_results::FiniteOrNull;
 use righting_results::trajectory::{Interval, Node, Trajectory};
 use righting_scenario::error::ShapeError;
 use righting_scenario::scenario::Scenario;
 use righting_verifier::DormandPrince;
+use serde::Serialize;
 
 /// The paper's overall actuator efficiency η.
 pub const PAPER_EFFICIENCY: f64 = 0.1;

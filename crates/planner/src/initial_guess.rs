@@ -1,4 +1,4 @@
-//! Trajectories to start the optimizer from.
+//! Initial guesses: trajectories to start the optimizer from.
 
 mod joint_loops;
 
@@ -6,22 +6,21 @@ use std::f64::consts::PI;
 
 use righting_multibody::{Quaternion, State};
 use righting_ocp::Guess;
-
-use crate::formulation::Coordinates;
-use crate::symmetry::{Mirror, reversed};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::{Maneuver, Scenario};
 
-/// How far a swing takes a joint without limits, rad.
-const FREE_SWING_RAD: f64 = 2.0;
+use crate::formulation::Coordinates;
+use crate::symmetry::{Mirror, reversed};
+
+/// How far a low-discrepancy guess takes a joint without limits, rad.
+const FREE_JOINT_RAD: f64 = 2.0;
 /// So much nearer to the target an image of an earlier plan must end to be taken in its place, rad.
 const NEARER_RAD: f64 = 1e-3;
-/// Share of the way to a joint's limit that a swing may take.
+/// Share of the way to a joint's limit that a guess may take.
 const LIMIT_SHARE: f64 = 0.8;
 
-/// Starts in which every joint guesses smoothly, rest to rest, to somewhere within its limits, and
-/// some of the way back. The base's attitude is held. Swing `index` is the same every time.
+/// The initial guesses of a maneuver on a grid.
 pub(crate) struct InitialGuesses<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) coordinates: &'a Coordinates,
@@ -36,28 +35,30 @@ impl InitialGuesses<'_> {
         Guess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
     }
 
-    /// InitialGuesses `first`, `first + 1`, … without end.
+    /// Low-discrepancy guesses `first`, `first + 1`, … without end; each is the same every time. Every
+    /// joint moves smoothly, rest to rest, to somewhere within its limits, and some of the way back. The
+    /// ends are points of a Halton sequence. The base's attitude is held.
     pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = Guess> {
         let joints = self.scenario.system().joint_count();
-        // Two points a swing: how far each joint goes, and how much of it stays.
+        // Two points a guess: how far each joint goes, and how much of it stays.
         let mut points = Halton::starting_after(joints, 2 * first);
-        std::iter::from_fn(move || Some(self.swing(&points.next()?, &points.next()?)))
+        std::iter::from_fn(move || Some(self.with_joints_to(&points.next()?, &points.next()?)))
     }
 
-    /// The `count` of the first `screened` guesses after which the base turns slowest once they are
-    /// rolled out.
+    /// The `count` of the first `screened` low-discrepancy guesses after which the base turns slowest,
+    /// simulated.
     pub(crate) fn least_final_rate(&self, screened: usize, count: usize) -> Vec<Guess> {
-        let mut rolled: Vec<(f64, Guess)> = self
+        let mut simulated: Vec<(f64, Guess)> = self
             .low_discrepancy(0)
             .take(screened)
-            .map(|swing| self.simulated(swing))
-            .map(|swing| {
-                let end = self.coordinates.free_floating_state(swing.states.row(self.steps));
-                (end.angular_rate.norm(), swing)
+            .map(|guess| self.simulated(guess))
+            .map(|guess| {
+                let end = self.coordinates.free_floating_state(guess.states.row(self.steps));
+                (end.angular_rate.norm(), guess)
             })
             .collect();
-        rolled.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        rolled.into_iter().take(count).map(|(_, swing)| swing).collect()
+        simulated.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        simulated.into_iter().take(count).map(|(_, guess)| guess).collect()
     }
 
     /// The motion that the guess's controls make: its base turns as momentum has it.
@@ -140,7 +141,7 @@ impl InitialGuesses<'_> {
         images.into_iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
     }
 
-    fn swing(&self, reach: &[f64], back: &[f64]) -> Guess {
+    fn with_joints_to(&self, reach: &[f64], back: &[f64]) -> Guess {
         let duration_s = self.scenario.horizon().duration_s;
         let limits = &self.scenario.system().joint_limits;
         let motions = limits.iter().enumerate().map(|(joint, limits)| {
@@ -150,7 +151,7 @@ impl InitialGuesses<'_> {
                 true => limits.angle_max_rad - start,
                 false => start - limits.angle_min_rad,
             };
-            let amplitude = signed * room.clamp(0.0, FREE_SWING_RAD) * LIMIT_SHARE;
+            let amplitude = signed * room.clamp(0.0, FREE_JOINT_RAD) * LIMIT_SHARE;
             Motion { amplitude, back: back[joint], duration_s }
         });
         self.moved(&motions.collect::<Vec<_>>())

@@ -20,8 +20,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
-use serde::Deserialize;
-
 use righting_results::solution::{SCHEMA, Status};
 use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE};
@@ -29,6 +27,7 @@ use righting_scenario::error::{Error, Mismatch};
 use righting_scenario::file::{self, ManeuverType, SystemReference};
 use righting_scenario::json::{Document, FileKind};
 use righting_scenario::scenario::Scenario;
+use serde::Deserialize;
 
 /// The solved maneuvers of a folder. Only their `solution.json` have been read.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@
 //! [bound](righting_analysis::detumble::rate_bound_rad_s). From the scenario's own value the search goes to easier ones
 //! until one succeeds, from there a quarter harder at a time until one fails, and then halves what
 //! lies between, each plan being a start for the next. A value counts as failed only once it
-//! has failed from its nearest success, cold, and, where asked for, from many random starts.
+//! has failed from its nearest success, cold, and, where asked for, from many low-discrepancy starts.
 //!
 //! Nothing says that what is harder must fail, nor that a plan that was not found does not exist:
 //! the answer is the end of an unbroken row of successes, not a proof.
@@ -13,18 +13,18 @@
 mod frontier;
 mod trial;
 
+use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::Control;
+use righting_results::FiniteOrNull;
+use righting_results::solution::{IterationRecord, Status, Terminal};
+use righting_scenario::error::Error;
+use righting_scenario::scenario::{LONGEST_S, Maneuver, Scenario};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::planned::Planned;
 use crate::planner::PlanError;
 use frontier::{Frontier, Line, Resolution};
-use righting_analysis::detumble::rate_bound_rad_s;
-use righting_results::FiniteOrNull;
-use righting_results::solution::{IterationRecord, Status, Terminal};
-use righting_scenario::error::Error;
-use righting_scenario::scenario::{LONGEST_S, Maneuver, Scenario};
 use trial::Trials;
 
 /// No duration beyond so many times the scenario's is tried.
@@ -54,12 +54,12 @@ pub struct ReachSettings {
     pub resolution: f64,
     /// Detumble: by how much the rate left may exceed its bound, %.
     pub within_percent: f64,
-    /// How many random starts to try before a value counts as failed; 0 for none.
+    /// How many low-discrepancy starts to try before a value counts as failed; 0 for none.
     pub starts: u64,
 }
 
 impl ReachSettings {
-    /// The defaults for a quantity: 1 % of a duration or 0.5°, within 2 % of the bound, no random
+    /// The defaults for a quantity: 1 % of a duration or 0.5°, within 2 % of the bound, no other
     /// starts.
     pub fn new(quantity: Quantity) -> Self {
         let resolution = match quantity {
@@ -162,8 +162,9 @@ pub enum StartedFrom {
     Cold,
     /// A neighbor's plan, beside the scenario's own guess.
     Neighbor,
-    /// Random starts.
-    Random,
+    /// Low-discrepancy starts.
+    #[serde(rename = "random")]
+    LowDiscrepancy,
 }
 
 /// How a search is getting on.

@@ -1,9 +1,9 @@
 //! The structure of the nonlinear program of a scenario.
 
 use righting_ocp::{Grid, KktSparsity, MultipleShooting, OcpError, StageFunctions};
+use righting_scenario::scenario::Scenario;
 
 use crate::formulation::FormulatedManeuver;
-use righting_scenario::scenario::Scenario;
 
 /// Where the KKT matrix of the program on the scenario's first `steps` intervals can be nonzero.
 ///

@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix3, Vector3};
 use righting_multibody::{Quaternion, System};
-
 use righting_results::trajectory::{Interval, Node, Trajectory};
 use righting_scenario::halton::Halton;
 use righting_scenario::system_description::SystemDescription;

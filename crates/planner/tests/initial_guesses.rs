@@ -6,7 +6,7 @@ use righting_planner::{PlanError, Planned, Planner};
 use righting_results::solution::AttemptRecord;
 use righting_results::{Status, Terminal};
 use righting_scenario::Scenario;
-use righting_scenario::file::{Guess, NamedGuess, RandomStarts};
+use righting_scenario::file::{Guess, LowDiscrepancyStarts, NamedGuess};
 use righting_test_support::{motion, shipped, solves, varied};
 use righting_verifier::verify;
 
@@ -202,7 +202,7 @@ fn one_seed_gives_one_plan() {
     let seeded = |seed| {
         let scenario = varied(&shipped("slew_4dof"), |file| {
             file.horizon.steps = 60.0;
-            file.solver.guess = Some(Guess::Starts(RandomStarts { starts: 3, seed }));
+            file.solver.guess = Some(Guess::Starts(LowDiscrepancyStarts { starts: 3, seed }));
         });
         planned(&scenario)
     };

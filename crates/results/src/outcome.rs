@@ -1,10 +1,10 @@
 //! What a maneuver reached, and what it cost.
 
 use righting_multibody::State;
+use righting_scenario::scenario::{Maneuver, Scenario};
 
 use crate::solution::Terminal;
 use crate::trajectory::Trajectory;
-use righting_scenario::scenario::{Maneuver, Scenario};
 
 impl Terminal {
     /// What the last node of a trajectory reached.

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
+use righting_scenario::error::Error;
+use righting_scenario::json::{Document, FileKind};
+use righting_scenario::{file, file_io};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::finite_or_null::FiniteOrNull;
 use crate::verification::Verification;
-use righting_scenario::error::Error;
-use righting_scenario::json::{Document, FileKind};
-use righting_scenario::{file, file_io};
 
 /// Value of the field `schema`.
 pub const SCHEMA: &str = "righting.solution/1";

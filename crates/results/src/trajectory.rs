@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State};
-
 use righting_scenario::error::ShapeError;
 
 /// The free-floating system at one instant, with the power its joints take.

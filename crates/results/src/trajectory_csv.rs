@@ -5,10 +5,10 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
-
-use crate::trajectory::{Interval, Node, Trajectory};
 use righting_scenario::error::{Error, Mismatch};
 use righting_scenario::file_io;
+
+use crate::trajectory::{Interval, Node, Trajectory};
 
 /// Columns before the joint columns.
 const BASE_COLUMNS: [&str; 14] = [

@@ -204,8 +204,8 @@ pub enum Formulation {
 pub enum Guess {
     /// A named way of guessing.
     Named(NamedGuess),
-    /// The best of several random starts.
-    Starts(RandomStarts),
+    /// The best of several low-discrepancy starts.
+    Starts(LowDiscrepancyStarts),
 }
 
 /// The named ways of guessing.
@@ -218,14 +218,15 @@ pub enum NamedGuess {
     Auto,
 }
 
-/// The best of several random starts.
+/// The best of several low-discrepancy starts: joint motions whose ends are points of a Halton sequence,
+/// the same every time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `starts`")]
-pub struct RandomStarts {
+pub struct LowDiscrepancyStarts {
     /// Number of starts.
     #[schemars(range(min = 1, max = 1000))]
     pub starts: u64,
-    /// Seed of the random numbers; 0 by default.
+    /// Which stretch of the sequence; 0 by default.
     #[serde(default)]
     pub seed: u64,
 }
@@ -457,7 +458,7 @@ impl<'de> Deserialize<'de> for Guess {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-                let starts = RandomStarts::deserialize(MapAccessDeserializer::new(map))?;
+                let starts = LowDiscrepancyStarts::deserialize(MapAccessDeserializer::new(map))?;
                 Ok(Guess::Starts(starts))
             }
         }

@@ -18,7 +18,7 @@ use crate::system_description::{SystemDescription, read_system};
 pub const MAX_STEPS: usize = 100_000;
 /// The most iterations the optimizer may be given.
 pub const MAX_ITERATIONS: usize = 1_000_000;
-/// The most random starts.
+/// The most low-discrepancy starts.
 pub const MAX_STARTS: u64 = 1000;
 /// The longest duration, s.
 pub const LONGEST_S: f64 = 1e6;

@@ -1,11 +1,11 @@
 //! The distances that links keep, from the system file.
 
 use nalgebra::Vector3;
+use righting_scenario::collision::Between;
+use righting_scenario::file;
 
 use crate::ledger::{Subject, Worst};
 use crate::model::Segment;
-use righting_scenario::collision::Between;
-use righting_scenario::file;
 
 /// Which links keep how far from the base and from each other.
 ///

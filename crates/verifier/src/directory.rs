@@ -2,16 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::ledger::{Ledger, Worst};
-use crate::model::State;
-use crate::requirements::Requirements;
-use crate::verify::verify;
 use righting_results::solution::{SCHEMA, Solution};
 use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE, objective};
 use righting_scenario::error::Error;
 use righting_scenario::json::Place;
 use righting_scenario::scenario::Scenario;
+
+use crate::ledger::{Ledger, Worst};
+use crate::model::State;
+use crate::requirements::Requirements;
+use crate::verify::verify;
 
 /// How far numbers in `solution.json` may be from what the trajectory says, relative.
 const REPORTED: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! What the end of a maneuver shall be, and what it is.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
-
-use crate::model::State;
 use righting_results::solution::Terminal;
 use righting_scenario::file;
+
+use crate::model::State;
 
 /// What the end shall be.
 #[derive(Clone, Copy, Debug)]

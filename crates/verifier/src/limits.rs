@@ -1,12 +1,12 @@
 //! Joint limits and clearances, at the nodes and between them.
 
 use nalgebra::Vector3;
+use righting_results::trajectory::Trajectory;
 
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::model::State;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
-use righting_results::trajectory::Trajectory;
 
 /// How far a node may be past a limit (rad, rad/s, rad/s², m).
 const AT_NODES: f64 = 1e-6;

@@ -34,9 +34,9 @@ mod segment;
 mod state;
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use righting_scenario::file;
 
 use body::Body;
-use righting_scenario::file;
 use row::{Convention, Row};
 
 pub use dynamics::BaseAcceleration;

@@ -1,12 +1,12 @@
 //! What a scenario asks of a plan, from the resolved file alone.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use righting_scenario::file;
+use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::clearances::Clearances;
 use crate::goal::Goal;
 use crate::model::{BaseAcceleration, Model, Motion, State};
-use righting_scenario::file;
-use righting_scenario::scenario::{Horizon, Scenario};
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]

@@ -1,9 +1,10 @@
 //! The second integration: from a start and the controls alone.
 
-use crate::dormand_prince::DormandPrince;
-use crate::model::{Model, Motion, State};
 use righting_results::trajectory::Interval;
 use righting_scenario::scenario::Horizon;
+
+use crate::dormand_prince::DormandPrince;
+use crate::model::{Model, Motion, State};
 
 /// The motion that controls lead to, at every node.
 #[derive(Debug)]

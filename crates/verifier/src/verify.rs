@@ -1,4 +1,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
+use righting_results::solution::Terminal;
+use righting_results::trajectory::Trajectory;
+use righting_results::verification::Verification;
+use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::goal::Goal;
 use crate::ledger::{Ledger, Subject, Worst};
@@ -6,10 +10,6 @@ use crate::limits;
 use crate::model::{BaseAcceleration, Motion, State};
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
-use righting_results::solution::Terminal;
-use righting_results::trajectory::Trajectory;
-use righting_results::verification::Verification;
-use righting_scenario::scenario::{Horizon, Scenario};
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;

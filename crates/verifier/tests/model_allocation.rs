@@ -5,10 +5,11 @@ mod counting;
 
 use std::path::Path;
 
-use counting::allocations;
 use nalgebra::Vector3;
 use righting_scenario::Scenario;
 use righting_verifier::model::{Model, Motion, State};
+
+use counting::allocations;
 
 #[test]
 fn motion_and_torques_allocate_nothing() {

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, Vector3};
 use num_dual::{Dual64, HyperDual64};
 use righting_multibody::System;
-
 use righting_scenario::system_description::JointLimits;
 
 /// What an envelope is of.

@@ -4,11 +4,11 @@ use std::num::NonZero;
 use std::thread;
 
 use nalgebra::Vector3;
+use righting_scenario::halton::Halton;
 
 use super::arm::{Arm, Motion, Quantity};
 use super::directions::octahedral;
 use crate::hull::{Mesh, convex_hull};
-use righting_scenario::halton::Halton;
 
 /// Arm positions that the search of the coarse directions starts from.
 const POOL: usize = 2048;

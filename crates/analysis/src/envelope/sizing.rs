@@ -1,12 +1,12 @@
 //! How large an arm must be to do what an array of wheels does, and the reverse.
 
 use righting_multibody::{Link, System};
+use righting_scenario::system_description::SystemDescription;
 use serde::Serialize;
 
 use super::arm::{Arm, Quantity};
 use super::extent::{Reach, climb, in_parallel};
 use crate::zonotope::Zonotope;
-use righting_scenario::system_description::SystemDescription;
 
 /// Directions in which the two are compared, axes and diagonals among them.
 const DIRECTIONS: usize = 66;

@@ -3,7 +3,6 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State, System};
 use righting_scalar::Scalar;
-
 use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;

@@ -1,10 +1,10 @@
 use std::path::Path;
 
 use righting_ocp::{DerivativeErrors, Grid, MultipleShooting, StageFunctions};
-
-use super::FormulatedManeuver;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
+
+use super::FormulatedManeuver;
 
 /// The eight maneuvers of Table I.
 const MANEUVERS: [&str; 8] = [

@@ -226,7 +226,7 @@ mod tests {
     const STEPS: usize = 200;
 
     /// Calls with the starts of a slew of the 4-DOF arm, bent.
-    fn with_swings(check: impl FnOnce(&InitialGuesses<'_>)) {
+    fn with_guesses(check: impl FnOnce(&InitialGuesses<'_>)) {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/slew_4dof.json");
         let mut changed = Scenario::read(&file).unwrap().resolved().clone();
         changed.initial.joint_angles_deg = vec![20.0, 30.0, -20.0, 10.0];
@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn a_small_loop_turns_the_base_by_its_area_times_the_curvature() {
-        with_swings(|guesses| {
+        with_guesses(|guesses| {
             let curvature = guesses.curvature(&guesses.scenario.initial().joint_angles_rad);
             for (i, j) in [(0, 1), (1, 2), (0, 3)] {
                 let unit = |joint| DVector::from_fn(4, |k, _| f64::from(u8::from(k == joint)));
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn a_loop_has_the_size_that_turns_the_base_as_far_as_asked() {
-        with_swings(|guesses| {
+        with_guesses(|guesses| {
             // Small loops from this posture hardly turn the base about x or y alone.
             for axis in [[0.0, 0.6, 0.8], [-0.6, 0.64, 0.48]] {
                 let axis = Vector3::from(axis);
@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn a_loop_s_attitude_ends_at_the_target() {
-        with_swings(|guesses| {
+        with_guesses(|guesses| {
             let axis = Vector3::new(0.0, 0.6, 0.8);
             let target = Quaternion::from_axis_angle(&axis, 1.2);
             let loops = guesses.joint_loops(&target);

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use righting_ocp::Control;
+use righting_results::solution::{IterationRecord, Status, Terminal};
+use righting_scenario::file::{Guess, LowDiscrepancyStarts};
+use righting_scenario::scenario::{Maneuver, Scenario};
 
 use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
 use crate::planner::Planner;
-use righting_results::solution::{IterationRecord, Status, Terminal};
-use righting_scenario::file::{Guess, RandomStarts};
-use righting_scenario::scenario::{Maneuver, Scenario};
 
 /// To see whether effort stands in the way, its weight is multiplied by this.
 const CHEAP_EFFORT: f64 = 1e-3;
@@ -57,7 +57,7 @@ impl<'a> Trials<'a> {
             starts.insert(0, StartedFrom::Neighbor);
         }
         if self.settings.starts > 0 {
-            starts.push(StartedFrom::Random);
+            starts.push(StartedFrom::LowDiscrepancy);
         }
         let mut iterations = 0;
         let mut best: Option<(StartedFrom, Reached)> = None;
@@ -153,10 +153,10 @@ impl<'a> Trials<'a> {
                 let mut planner = Planner::new().warm_start(&neighbor.planned.trajectory);
                 planner.plan(scenario, &mut on_iteration)?
             }
-            (StartedFrom::Random, _) => {
+            (StartedFrom::LowDiscrepancy, _) => {
                 let mut file = scenario.resolved().clone();
                 let starts = self.settings.starts;
-                file.solver.guess = Some(Guess::Starts(RandomStarts { starts, seed: 0 }));
+                file.solver.guess = Some(Guess::Starts(LowDiscrepancyStarts { starts, seed: 0 }));
                 let many = Scenario::from_file(file, Path::new(self.scenario.name()))?;
                 Planner::new().plan(&many, &mut on_iteration)?
             }

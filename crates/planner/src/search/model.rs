@@ -2,13 +2,13 @@ use righting_ocp::{
     Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Samples, Settings, Solution,
     StageFunctions, Start, refine,
 };
+use righting_results::solution::IterationRecord;
+use righting_scenario::file::Formulation;
+use righting_scenario::scenario::Scenario;
 
 use crate::formulation::{Coordinates, FormulatedManeuver};
 use crate::initial_guess::InitialGuesses;
 use crate::planned::record;
-use righting_results::solution::IterationRecord;
-use righting_scenario::file::Formulation;
-use righting_scenario::scenario::Scenario;
 
 /// A form of the problem with its compiled functions.
 pub(super) struct Model {

@@ -92,11 +92,16 @@ impl Search<'_> {
     }
 }
 
-/// The motion of a plan with its controls changed along `way`, one way or the other.
-fn displaced(guesses: &InitialGuesses<'_>, plan: &Solution, way: &Samples, sign: f64) -> Guess {
+/// The motion of a plan with its controls changed along `direction`, one way or the other.
+fn displaced(
+    guesses: &InitialGuesses<'_>,
+    plan: &Solution,
+    direction: &Samples,
+    sign: f64,
+) -> Guess {
     let mut guess = guesses.constant();
     let steps = guess.controls.len();
-    let change = averaged(way, steps);
+    let change = averaged(direction, steps);
     let step_s = guesses.scenario.horizon().duration_s / steps as f64;
     let share = sign * FIRST_STEP_RAD / largest_turn(&change, step_s);
     guess.controls = averaged(&plan.controls, steps);

@@ -1,7 +1,7 @@
 //! Which initial guesses are ranked.
 
 use righting_ocp::Guess;
-use righting_scenario::file::{self, NamedGuess, RandomStarts};
+use righting_scenario::file::{self, LowDiscrepancyStarts, NamedGuess};
 use righting_scenario::scenario::{MAX_STARTS, Maneuver, Scenario};
 
 use crate::initial_guess::InitialGuesses;
@@ -68,14 +68,16 @@ fn count(scenario: &Scenario) -> usize {
     match scenario.solver().guess {
         file::Guess::Named(NamedGuess::Constant) => 0,
         file::Guess::Named(NamedGuess::Auto) => AUTO_GUESSES,
-        file::Guess::Starts(RandomStarts { starts, .. }) => starts as usize,
+        file::Guess::Starts(LowDiscrepancyStarts { starts, .. }) => starts as usize,
     }
 }
 
 /// Each seed has its own stretch of the sequence.
 fn first(scenario: &Scenario) -> u64 {
     match scenario.solver().guess {
-        file::Guess::Starts(RandomStarts { seed, .. }) => seed.wrapping_mul(MAX_STARTS) % (1 << 40),
+        file::Guess::Starts(LowDiscrepancyStarts { seed, .. }) => {
+            seed.wrapping_mul(MAX_STARTS) % (1 << 40)
+        }
         file::Guess::Named(_) => 0,
     }
 }

@@ -1,9 +1,9 @@
 //! Mass, center of mass and inertia of every body, from the file.
 
 use nalgebra::{Matrix3, Vector3};
+use righting_scenario::file;
 
 use super::row::{Convention, Row};
-use righting_scenario::file;
 
 /// A rigid body.
 #[derive(Clone, Debug)]

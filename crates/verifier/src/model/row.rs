@@ -1,7 +1,6 @@
 //! One row of a Denavit–Hartenberg table.
 
 use nalgebra::{Matrix3, Vector3};
-
 use righting_scenario::file;
 
 /// Which of a row's two screws comes first.

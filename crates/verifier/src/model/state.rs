@@ -1,7 +1,6 @@
 //! The state x = [r, q_BN, ṙ, ω, q, q̇] ∈ R^{13+2j}.
 
 use nalgebra::{Quaternion, Vector3};
-
 use righting_results::trajectory::Node;
 
 /// A view of a state: where the base is, how it moves, and every joint.
