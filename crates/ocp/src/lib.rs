@@ -30,15 +30,19 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod attempt;
 mod block;
-mod curvature;
 mod derivative_check;
 mod error;
+mod evaluation;
+mod evaluator;
+mod expr_matrix;
 mod grid;
 pub mod kkt;
 mod layout;
-mod matrix;
-mod nlp;
+mod matrix_output;
+mod multiple_shooting;
+mod node_function;
 mod passive;
 mod point;
 mod problem;
@@ -46,30 +50,35 @@ mod refine;
 mod resample;
 mod rk4;
 mod samples;
+mod second_order;
+mod settings;
 mod solution;
 mod solve;
 mod sparsity;
-mod stage;
+mod stage_functions;
+mod stage_store;
 mod start;
-mod step;
+mod step_derivatives;
+mod step_functions;
 mod structure;
 mod trajectory;
-mod worker;
 
-pub use curvature::Curvature;
+pub use attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 pub use derivative_check::DerivativeErrors;
 pub use error::OcpError;
 pub use grid::Grid;
 pub use layout::{Dimensions, Layout};
-pub use nlp::MultipleShooting;
+pub use multiple_shooting::MultipleShooting;
 pub use point::Point;
 pub use problem::{ControlProblem, Interval};
 pub use refine::{close_guess_settings, refine};
+pub use rk4::{RungeKutta4, StagePoint};
 pub use samples::Samples;
+pub use second_order::Curvature;
+pub use settings::{LinearSolver, Optimizer, Settings};
 pub use solution::Solution;
-pub use solve::{Attempt, AttemptEnd, LinearSolver, Optimizer, Settings, UsedLinearSolver};
 pub use sparsity::KktSparsity;
-pub use stage::StageFunctions;
+pub use stage_functions::StageFunctions;
 pub use start::{Guess, Start};
 
 pub use righting_nlp::{Control, Iteration, Options, Status, Timing};

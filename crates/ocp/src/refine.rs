@@ -2,11 +2,11 @@ use righting_nlp::{Control, Iteration, MultiplierInitialization, Options, Status
 
 use crate::error::OcpError;
 use crate::grid::Grid;
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 use crate::point::Point;
+use crate::settings::{Optimizer, Settings};
 use crate::solution::Solution;
-use crate::solve::{Optimizer, Settings};
-use crate::stage::StageFunctions;
+use crate::stage_functions::StageFunctions;
 use crate::start::{Guess, Start};
 
 /// How close to their bounds the variables and multipliers of a warm start may stay: it is nearly

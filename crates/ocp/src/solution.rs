@@ -1,8 +1,9 @@
 use righting_nlp::{Iteration, Status, Timing};
 
+use crate::attempt::{Attempt, UsedLinearSolver};
 use crate::point::Point;
 use crate::samples::Samples;
-use crate::solve::{Attempt, Optimizer, UsedLinearSolver};
+use crate::settings::Optimizer;
 
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]

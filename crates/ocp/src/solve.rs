@@ -5,99 +5,15 @@ use righting_ipopt::{
     Control, Iteration, Multipliers, Options, ReducedHessian, SolveError, Status,
 };
 
+use crate::attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 use crate::error::OcpError;
 use crate::kkt::{NodeDims, StageDims, StageKkt};
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 use crate::point::Point;
 use crate::problem::Interval;
+use crate::settings::{LinearSolver, Optimizer, Settings};
 use crate::solution::Solution;
 use crate::start::Start;
-
-/// What factorises Ipopt's linear systems.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum LinearSolver {
-    /// The stage solver, and MUMPS where it does not succeed.
-    #[default]
-    Auto,
-    /// MUMPS, the general sparse solver that comes with Ipopt.
-    Mumps,
-    /// The stage solver alone.
-    Stage,
-}
-
-/// What factorised the linear systems of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UsedLinearSolver {
-    /// MUMPS.
-    Mumps,
-    /// The stage solver.
-    Stage,
-    /// The stage solver did not succeed and MUMPS solved the problem again from its start.
-    MumpsAfterStage,
-}
-
-/// Who makes the iterations, or made them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Optimizer {
-    /// Ipopt.
-    #[default]
-    Ipopt,
-    /// [`righting_interior`], and Ipopt from the same start where that gives up. It solves with the
-    /// stage solver only: with [`LinearSolver::Mumps`] Ipopt makes the iterations.
-    Interior,
-}
-
-/// One attempt to solve a program on one grid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Attempt {
-    /// Number of steps of the grid.
-    pub steps: usize,
-    /// Who made the iterations.
-    pub optimizer: Optimizer,
-    /// What factorised the linear systems.
-    pub linear_solver: UsedLinearSolver,
-    /// How it ended.
-    pub end: AttemptEnd,
-    /// Number of iterations; the start is not one.
-    pub iterations: usize,
-    /// Wall time.
-    pub time: Duration,
-}
-
-/// How an attempt ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum AttemptEnd {
-    /// With this status.
-    Status(Status),
-    /// Without an answer, for this reason; another attempt from the same start follows.
-    GivenUp(String),
-}
-
-/// How to solve.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// Ipopt's options, of either optimizer. MUMPS and [`Optimizer::Interior`] have their own way with
-    /// [`Options::fast_step_computation`]: MUMPS's steps are always refined, the interior solver's never.
-    pub ipopt: Options,
-    /// Who makes the iterations.
-    pub optimizer: Optimizer,
-    /// What factorises the linear systems.
-    pub linear_solver: LinearSolver,
-    /// Whether [`LinearSolver::Auto`] tries MUMPS too when the stage solver has used up its
-    /// iterations. Default true; false for one start of many.
-    pub retry_at_iteration_limit: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            ipopt: Options::default(),
-            optimizer: Optimizer::Ipopt,
-            linear_solver: LinearSolver::Auto,
-            retry_at_iteration_limit: true,
-        }
-    }
-}
 
 impl MultipleShooting<'_> {
     /// Solves the program from `start`. `on_iteration` sees every iteration and may stop the solve.

@@ -2,7 +2,7 @@
 
 use righting_nlp::Problem;
 
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 
 /// Places of the structural nonzeros of the KKT matrix
 ///

@@ -1,5 +1,5 @@
 use crate::error::OcpError;
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 use crate::point::Point;
 use crate::samples::Samples;
 

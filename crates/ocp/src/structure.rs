@@ -1,7 +1,9 @@
 use righting_nlp::TripletStructure;
 
 use crate::layout::Layout;
-use crate::stage::{MatrixOutput, NodeFunction, StageFunctions};
+use crate::matrix_output::MatrixOutput;
+use crate::node_function::NodeFunction;
+use crate::stage_functions::StageFunctions;
 
 /// Where the values of one matrix output belong in the slice of a step or node.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::dims::{Layout, NodeLayout};
+use super::dims::{NodeOffsets, SystemLayout};
 use super::elimination::Elimination;
 use super::lanes::{AlignedVec, add_rows, dot, reset, vectors, vectors_mut, zeros};
 use super::node::NodeFactor;
@@ -43,7 +43,7 @@ impl Default for SolveWorkspace {
 
 /// Solves in place with the factors of all nodes.
 pub(super) struct Solve<'a> {
-    pub layout: &'a Layout,
+    pub layout: &'a SystemLayout,
     pub structure: &'a Structure,
     pub nodes: &'a [NodeFactor],
     pub work: &'a mut SolveWorkspace,
@@ -71,14 +71,14 @@ impl WithSimd for Solve<'_> {
 struct Step<'a> {
     pattern: &'a NodePattern,
     node: &'a NodeFactor,
-    at: &'a NodeLayout,
-    next: Option<(&'a NodeFactor, &'a NodeLayout)>,
+    at: &'a NodeOffsets,
+    next: Option<(&'a NodeFactor, &'a NodeOffsets)>,
 }
 
 impl<'a> Step<'a> {
     #[inline(always)]
     fn new(
-        layout: &'a Layout,
+        layout: &'a SystemLayout,
         structure: &'a Structure,
         nodes: &'a [NodeFactor],
         k: usize,

@@ -4,7 +4,7 @@ use righting_ipopt::{Factorization, LinearSolverError, PivotTolerances};
 use super::*;
 use crate::grid::Grid;
 use crate::problem::ControlProblem;
-use crate::stage::StageFunctions;
+use crate::stage_functions::StageFunctions;
 use crate::start::Guess;
 
 const STEPS: usize = 30;

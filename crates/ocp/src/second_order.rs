@@ -5,7 +5,7 @@ use righting_nlp::{AugmentedSystem, Declarations, Factorization, LinearSolver, N
 
 use crate::error::OcpError;
 use crate::kkt::StageKkt;
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 use crate::point::Point;
 use crate::samples::Samples;
 
@@ -172,106 +172,4 @@ fn curvature_of_barrier(force: f64, distance: f64, bound: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use num_dual::DualNum;
-    use righting_nlp::{Control, Options};
-
-    use super::*;
-    use crate::grid::Grid;
-    use crate::problem::{ControlProblem, Interval};
-    use crate::solve::{Optimizer, Settings};
-    use crate::stage::StageFunctions;
-    use crate::start::{Guess, Start};
-
-    const STEPS: usize = 10;
-
-    /// x' = u over one second. With all controls equal to u the cost Σ u² − c x(1)² is (N − c) u²,
-    /// and along every other direction it curves up more.
-    fn pulled_away(pull: f64) -> ControlProblem {
-        ControlProblem::new(1, 1, |_, u| vec![u[0]])
-            .running_cost(|_, u| u[0].powi(2))
-            .terminal_cost(move |x| x[0].powi(2) * -pull)
-    }
-
-    /// The curvature where a solve from these controls ends.
-    fn curvature_from(problem: &ControlProblem, control: f64) -> (Curvature, f64, usize) {
-        let functions = StageFunctions::compile(problem).unwrap();
-        let grid = Grid::new(1.0, STEPS).unwrap();
-        let mut program = MultipleShooting::new(&functions, grid, &[0.0]).unwrap();
-        let mut guess = Guess::constant(&[0.0], 1, STEPS);
-        for step in 0..STEPS {
-            guess.controls.row_mut(step)[0] = control;
-            guess.states.row_mut(step + 1)[0] = control * (step + 1) as f64 / STEPS as f64;
-        }
-        let settings = Settings {
-            ipopt: Options { tolerance: 1e-9, ..Options::default() },
-            ..Settings::default()
-        };
-        let start = Start::Guess(guess);
-        let solution = program.solve(&start, &settings, |_| Control::Continue).unwrap();
-        assert!(solution.status.is_success(), "{:?}", solution.status);
-        let curvature = program.curvature(&solution.point).unwrap();
-        assert!(curvature == Curvature::Upward || !solution.curves_upwards);
-        let by_interior = Settings { optimizer: Optimizer::Interior, ..settings };
-        let solution = program.solve(&start, &by_interior, |_| Control::Continue).unwrap();
-        assert_eq!(solution.curves_upwards, curvature == Curvature::Upward);
-        (curvature, solution.states.row(STEPS)[0], solution.iterations())
-    }
-
-    #[test]
-    fn a_minimum_curves_upwards_and_a_saddle_does_not() {
-        let least = STEPS as f64;
-        let (curvature, _, iterations) = curvature_from(&pulled_away(0.99 * least), 0.0);
-        assert_eq!((curvature, iterations), (Curvature::Upward, 0));
-        // Ipopt stops at once here too.
-        let (curvature, _, iterations) = curvature_from(&pulled_away(1.01 * least), 0.0);
-        assert_eq!(iterations, 0);
-        let Curvature::Downward { controls } = curvature else { panic!("{curvature:?}") };
-        assert_eq!(controls.len(), STEPS);
-        let (sum, squares) = controls
-            .rows()
-            .fold((0.0, 0.0), |(sum, squares), u| (sum + u[0], squares + u[0].powi(2)));
-        assert!(squares < 1.01 * least * (sum / least).powi(2), "{controls:?}");
-    }
-
-    #[test]
-    fn a_minimum_that_only_bounds_hold_is_one() {
-        let pulled = || pulled_away(2.0 * STEPS as f64);
-        let bounded_control = pulled().control_bounds(Interval::symmetric(&[0.7]));
-        let (curvature, end, iterations) = curvature_from(&bounded_control, 0.1);
-        assert!((end - 0.7).abs() < 1e-6 && iterations > 0, "{end}");
-        assert_eq!(curvature, Curvature::Upward);
-
-        let bounded_state = pulled().state_bounds(Interval::symmetric(&[0.7]));
-        let (curvature, end, _) = curvature_from(&bounded_state, 0.1);
-        assert!((end - 0.7).abs() < 1e-6, "{end}");
-        assert_eq!(curvature, Curvature::Upward);
-
-        let path = pulled().path_constraints(Interval::symmetric(&[0.49]), |x| vec![x[0].powi(3)]);
-        let (curvature, end, _) = curvature_from(&path, 0.1);
-        assert!((end.powi(3) - 0.49).abs() < 1e-6, "{end}");
-        assert_eq!(curvature, Curvature::Upward);
-    }
-
-    #[test]
-    fn a_saddle_between_bounds_is_none_the_less_one() {
-        let pulled = pulled_away(2.0 * STEPS as f64);
-        let bounded = pulled.control_bounds(Interval::symmetric(&[0.7]));
-        let (curvature, end, _) = curvature_from(&bounded, 0.0);
-        assert_eq!(end, 0.0);
-        assert!(matches!(curvature, Curvature::Downward { .. }), "{curvature:?}");
-    }
-
-    #[test]
-    fn a_point_of_another_grid_is_refused() {
-        let functions = StageFunctions::compile(&pulled_away(1.0)).unwrap();
-        let program = |steps| {
-            MultipleShooting::new(&functions, Grid::new(1.0, steps).unwrap(), &[0.0]).unwrap()
-        };
-        let start = Start::Guess(Guess::constant(&[0.0], 1, 4));
-        let solution =
-            program(4).solve(&start, &Settings::default(), |_| Control::Continue).unwrap();
-        let refused = program(5).curvature(&solution.point);
-        assert!(matches!(refused, Err(OcpError::Dimension { what: "point", .. })));
-    }
-}
+mod tests;
