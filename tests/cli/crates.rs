@@ -56,8 +56,13 @@ fn reached<'a>(
 #[test]
 fn no_crate_reaches_what_it_shall_know_nothing_of() {
     let dependencies = dependencies();
-    let solvers =
-        ["righting-ocp", "righting-nlp", "righting-interior", "righting-ipopt", "righting-ipopt-sys"];
+    let solvers = [
+        "righting-ocp",
+        "righting-nlp",
+        "righting-interior",
+        "righting-ipopt",
+        "righting-ipopt-sys",
+    ];
     let physics = ["righting-multibody", "righting-scenario", "righting-planner"];
     let symbols = ["righting-symbolic"];
     let planner = ["righting-planner"];

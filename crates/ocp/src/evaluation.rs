@@ -3,8 +3,8 @@
 use righting_nlp::{Bounds, EvaluationError, Problem, TripletStructure};
 
 use crate::block::{Block, lanes};
+use crate::decision_layout::DecisionLayout;
 use crate::evaluator::NodeWorkspace;
-use crate::layout::Layout;
 use crate::multiple_shooting::MultipleShooting;
 use crate::node_function::NodeFunction;
 use crate::structure::Scatter;
@@ -12,7 +12,7 @@ use crate::structure::Scatter;
 /// Rows of a decision or constraint vector by step and node.
 #[derive(Clone, Copy)]
 struct Rows<'a> {
-    layout: Layout,
+    layout: DecisionLayout,
     initial: &'a [f64],
     vector: &'a [f64],
 }

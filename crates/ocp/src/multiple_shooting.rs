@@ -1,18 +1,18 @@
 use crate::block::Block;
+use crate::decision_layout::{DecisionLayout, ShootingDimensions};
 use crate::error::OcpError;
 use crate::evaluator::Evaluator;
 use crate::grid::Grid;
-use crate::layout::{Dimensions, Layout};
 use crate::stage_functions::StageFunctions;
 use crate::stage_store::StageStore;
 use crate::structure::{HessianStructure, JacobianStructure};
 
-/// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`Layout`]
+/// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`DecisionLayout`]
 /// for the order of its variables and constraints.
 pub struct MultipleShooting<'f> {
     pub(crate) functions: &'f StageFunctions,
     pub(crate) grid: Grid,
-    pub(crate) layout: Layout,
+    pub(crate) layout: DecisionLayout,
     /// x_0, passive states left out.
     pub(crate) initial: Vec<f64>,
     pub(crate) full_initial: Vec<f64>,
@@ -45,7 +45,7 @@ impl<'f> MultipleShooting<'f> {
         if let Some((index, &value)) = initial.iter().enumerate().find(|(_, v)| !v.is_finite()) {
             return Err(OcpError::NotFinite { what: "initial state", index, value });
         }
-        let dimensions = Dimensions {
+        let dimensions = ShootingDimensions {
             states: functions.states,
             controls: functions.controls,
             path: functions.path_bounds.len(),
@@ -55,7 +55,7 @@ impl<'f> MultipleShooting<'f> {
         Ok(Self {
             functions,
             grid,
-            layout: Layout::new(dimensions),
+            layout: DecisionLayout::new(dimensions),
             initial: functions.active.iter().map(|&i| initial[i]).collect(),
             full_initial: initial.to_vec(),
             jacobian: JacobianStructure::new(functions, grid.steps()),
@@ -67,7 +67,7 @@ impl<'f> MultipleShooting<'f> {
     }
 
     /// Where everything lives in the vectors.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> DecisionLayout {
         self.layout
     }
 

@@ -6,12 +6,12 @@ use righting_nlp::{AugmentedSystem, Declarations, Factorization, LinearSolver, N
 use crate::error::OcpError;
 use crate::kkt::StageKkt;
 use crate::multiple_shooting::MultipleShooting;
-use crate::point::Point;
+use crate::primal_dual_point::PrimalDualPoint;
 use crate::samples::Samples;
 
 /// By how much Ipopt relaxes bounds, relative to their size (`bound_relax_factor`).
 const RELAXED: f64 = 1e-8;
-/// What is first added to the diagonal to find a way down.
+/// What is first added to the diagonal to find a direction of negative curvature.
 const FIRST_SHIFT: f64 = 1e-6;
 /// How much more each time that it is not enough.
 const SHIFT_GROWTH: f64 = 2.0;
@@ -33,29 +33,32 @@ const INVERSE_ITERATIONS: usize = 20;
 ///
 /// has one negative eigenvalue a constraint, and none that is zero, exactly where the reduced
 /// Hessian of the barrier problem is positive definite (Gould, *Mathematical Programming* 32, 1985).
-/// Ipopt looks at the matrix of every step it takes, but not at that of the point it returns.
+/// Ipopt looks at the matrix of every step it takes, but not at that of the point it returns;
+/// [`OcpSolution::reduced_hessian`](crate::OcpSolution::reduced_hessian) has what an optimizer that
+/// does look found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curvature {
-    /// Upwards in every direction: a first-order point is a strict local minimum.
-    Upward,
-    /// Downwards in some direction: a first-order point is a saddle or a maximum.
-    Downward {
-        /// The steepest such direction to first order, as changes of the controls, one row a step.
-        /// Its sign means nothing, its largest entry is one.
-        controls: Samples,
+    /// Positive in every direction: a first-order point is a strict local minimum (Nocedal & Wright,
+    /// *Numerical Optimization*, 2nd ed., theorem 12.6).
+    Positive,
+    /// Negative in some direction: a first-order point is a saddle or a maximum.
+    Negative {
+        /// The direction of most negative curvature, as changes of the controls, one row a step. Its
+        /// sign means nothing, its largest entry is one.
+        direction: Samples,
     },
-    /// Not at all in some direction, as far as the numbers tell.
-    Flat,
+    /// Zero in some direction, as far as the numbers tell.
+    Zero,
 }
 
 impl MultipleShooting<'_> {
     /// How the Lagrangian curves at `point`: one evaluation of the second derivatives and one
-    /// factorisation by stages, and a few more where it does not curve upwards.
+    /// factorisation by stages, and a few more where the curvature is not positive.
     ///
     /// # Errors
     /// [`OcpError::Dimension`] when the point belongs to another problem or grid,
     /// [`OcpError::Solve`] when the stage solver refuses the system.
-    pub fn curvature(&mut self, point: &Point) -> Result<Curvature, OcpError> {
+    pub fn curvature(&mut self, point: &PrimalDualPoint) -> Result<Curvature, OcpError> {
         if point.layout != self.layout() {
             return Err(OcpError::Dimension {
                 what: "point",
@@ -65,29 +68,30 @@ impl MultipleShooting<'_> {
         }
         let mut system = BarrierSystem::at(self, point).map_err(SolveError::Invalid)?;
         let constraints = self.layout().constraints();
-        let upward = Factorization::Regular { negative_eigenvalues: constraints };
+        let positive = Factorization::Regular { negative_eigenvalues: constraints };
         let mut stages = StageKkt::new(&self.stage_dims()).stop_at_excess();
         stages
             .analyse(system.matrix.order(), system.matrix.rows(), system.matrix.columns())
             .map_err(SolveError::LinearSolver)?;
-        if stages.factor(system.matrix.values()) == upward {
-            return Ok(Curvature::Upward);
+        if stages.factor(system.matrix.values()) == positive {
+            return Ok(Curvature::Positive);
         }
         let mut shift = FIRST_SHIFT;
         for _ in 0..SHIFTS {
-            if stages.factor(system.shifted(shift)) == upward {
+            if stages.factor(system.shifted(shift)) == positive {
                 system.shifted(0.0);
-                return Ok(self.way_down(&system.matrix, &mut stages));
+                return Ok(self.negative_curvature(&system.matrix, &mut stages));
             }
             shift *= SHIFT_GROWTH;
         }
-        Ok(Curvature::Flat)
+        Ok(Curvature::Zero)
     }
 
-    /// Inverse iteration on the reduced Hessian: with Z a basis of the constraints' null space and
+    /// Inverse iteration (Golub & Van Loan, *Matrix Computations*, 4th ed., section 7.6.1) on the
+    /// reduced Hessian: with Z a basis of the constraints' null space and
     /// δ the shift, solutions with a right-hand side b of the variables alone are
     /// Z (Zᵀ(W + Σ + δ)Z)⁻¹ Zᵀ b, and turn towards the most negative curvature.
-    fn way_down(&self, system: &AugmentedSystem, stages: &mut StageKkt) -> Curvature {
+    fn negative_curvature(&self, system: &AugmentedSystem, stages: &mut StageKkt) -> Curvature {
         let layout = self.layout();
         let mut direction = vec![0.0; system.order()];
         // No symmetry of a maneuver leaves this direction alone.
@@ -100,22 +104,22 @@ impl MultipleShooting<'_> {
             let moved = &direction[..system.variables()];
             let largest = moved.iter().fold(0.0_f64, |largest, d| largest.max(d.abs()));
             if !(largest.is_finite() && largest > 0.0) {
-                return Curvature::Flat;
+                return Curvature::Zero;
             }
             direction.iter_mut().for_each(|d| *d /= largest);
         }
         if system.primal_curvature(&direction) >= 0.0 {
-            return Curvature::Flat;
+            return Curvature::Zero;
         }
         let of_step = |step| &direction[layout.control(step)];
         let steps = layout.dimensions().steps;
         let largest = (0..steps).flat_map(of_step).fold(0.0_f64, |a, d| a.max(d.abs()));
-        let mut controls = Samples::new(layout.dimensions().controls);
+        let mut changes = Samples::new(layout.dimensions().controls);
         for step in 0..steps {
             let row: Vec<f64> = of_step(step).iter().map(|d| d / largest).collect();
-            controls.push(&row);
+            changes.push(&row);
         }
-        Curvature::Downward { controls }
+        Curvature::Negative { direction: changes }
     }
 }
 
@@ -127,7 +131,7 @@ struct BarrierSystem {
 }
 
 impl BarrierSystem {
-    fn at(program: &mut MultipleShooting<'_>, point: &Point) -> Result<Self, NlpError> {
+    fn at(program: &mut MultipleShooting<'_>, point: &PrimalDualPoint) -> Result<Self, NlpError> {
         let declared = Declarations::of(program)?;
         let mut matrix = AugmentedSystem::new(&declared);
         // The shooting problem can be evaluated anywhere: its functions have no domain to leave.

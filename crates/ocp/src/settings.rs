@@ -9,8 +9,8 @@ pub struct Settings {
     /// Who makes the iterations.
     pub optimizer: Optimizer,
     /// What factorises the linear systems.
-    pub linear_solver: LinearSolver,
-    /// Whether [`LinearSolver::Auto`] tries MUMPS too when the stage solver has used up its
+    pub linear_solver: LinearSolverChoice,
+    /// Whether [`LinearSolverChoice::Auto`] tries MUMPS too when the stage solver has used up its
     /// iterations. Default true; false for one start of many.
     pub retry_at_iteration_limit: bool,
 }
@@ -20,7 +20,7 @@ impl Default for Settings {
         Self {
             ipopt: Options::default(),
             optimizer: Optimizer::Ipopt,
-            linear_solver: LinearSolver::Auto,
+            linear_solver: LinearSolverChoice::Auto,
             retry_at_iteration_limit: true,
         }
     }
@@ -33,13 +33,13 @@ pub enum Optimizer {
     #[default]
     Ipopt,
     /// [`righting_interior`], and Ipopt from the same start where that gives up. It solves with the
-    /// stage solver only: with [`LinearSolver::Mumps`] Ipopt makes the iterations.
+    /// stage solver only: with [`LinearSolverChoice::Mumps`] Ipopt makes the iterations.
     Interior,
 }
 
 /// What factorises Ipopt's linear systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum LinearSolver {
+pub enum LinearSolverChoice {
     /// The stage solver, and MUMPS where it does not succeed.
     #[default]
     Auto,

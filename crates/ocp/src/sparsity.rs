@@ -11,7 +11,7 @@ use crate::multiple_shooting::MultipleShooting;
 /// ⎣ ∇g    0  ⎦   constraints
 /// ```
 ///
-/// in the order of [`Layout`](crate::Layout), lower triangle.
+/// in the order of [`DecisionLayout`](crate::DecisionLayout), lower triangle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KktSparsity {
     /// Number of variables.

@@ -1,9 +1,10 @@
 use righting_symbolic::{Backend, Expr, Function};
 
+use crate::component_bounds::ComponentBounds;
+use crate::control_problem::ControlProblem;
 use crate::error::OcpError;
 use crate::node_function::NodeFunction;
 use crate::passive::active_states;
-use crate::problem::{ControlProblem, Interval};
 use crate::rk4::STAGES;
 use crate::step_functions::StepFunctions;
 
@@ -24,10 +25,10 @@ pub struct StageFunctions {
     pub(crate) terminal_cost: NodeFunction,
     pub(crate) path: NodeFunction,
     pub(crate) terminal: NodeFunction,
-    pub(crate) state_bounds: Interval,
-    pub(crate) control_bounds: Interval,
-    pub(crate) path_bounds: Interval,
-    pub(crate) terminal_bounds: Interval,
+    pub(crate) state_bounds: ComponentBounds,
+    pub(crate) control_bounds: ComponentBounds,
+    pub(crate) path_bounds: ComponentBounds,
+    pub(crate) terminal_bounds: ComponentBounds,
 }
 
 impl StageFunctions {
@@ -99,7 +100,7 @@ impl StageFunctions {
             terminal_cost: on_state("terminal_cost", &[terminal_cost])?,
             path: on_state("path", &path)?,
             terminal: on_state("terminal", &terminal)?,
-            state_bounds: Interval::new(
+            state_bounds: ComponentBounds::new(
                 active.iter().map(|&i| problem.state_bounds.lower[i]).collect(),
                 active.iter().map(|&i| problem.state_bounds.upper[i]).collect(),
             ),

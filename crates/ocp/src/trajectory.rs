@@ -1,12 +1,12 @@
 use crate::multiple_shooting::MultipleShooting;
-use crate::point::Point;
+use crate::primal_dual_point::PrimalDualPoint;
 use crate::rk4::RungeKutta4;
 use crate::samples::Samples;
 
 impl MultipleShooting<'_> {
     /// All states at the nodes 0…N and the controls of the steps 0…N−1 of a point on this grid. The
     /// passive states are integrated along the trajectory with the same steps.
-    pub fn trajectory(&self, point: &Point) -> (Samples, Samples) {
+    pub fn trajectory(&self, point: &PrimalDualPoint) -> (Samples, Samples) {
         let z = &point.z;
         let (functions, layout, steps) = (self.functions(), self.layout(), self.grid().steps());
         let mut states = Samples::new(functions.all_states);

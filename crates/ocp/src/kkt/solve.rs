@@ -57,25 +57,25 @@ impl WithSimd for Solve<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { layout, structure, nodes, work, rhs } = self;
         for k in (0..nodes.len()).rev() {
-            let step = Step::new(layout, structure, nodes, k);
+            let step = NodeStep::new(layout, structure, nodes, k);
             step.backward(simd, work, rhs);
         }
         for k in 0..nodes.len() {
-            let step = Step::new(layout, structure, nodes, k);
+            let step = NodeStep::new(layout, structure, nodes, k);
             step.forward(simd, work, rhs);
         }
     }
 }
 
 /// A node with the defect that leads to the next one.
-struct Step<'a> {
+struct NodeStep<'a> {
     pattern: &'a NodePattern,
     node: &'a NodeFactor,
     at: &'a NodeOffsets,
     next: Option<(&'a NodeFactor, &'a NodeOffsets)>,
 }
 
-impl<'a> Step<'a> {
+impl<'a> NodeStep<'a> {
     #[inline(always)]
     fn new(
         layout: &'a SystemLayout,

@@ -2,12 +2,13 @@ use righting_nlp::{Control, Iteration, MultiplierInitialization, Options, Status
 
 use crate::error::OcpError;
 use crate::grid::Grid;
+use crate::initial_guess::InitialGuess;
 use crate::multiple_shooting::MultipleShooting;
-use crate::point::Point;
+use crate::ocp_solution::OcpSolution;
+use crate::ocp_start::OcpStart;
+use crate::primal_dual_point::PrimalDualPoint;
 use crate::settings::{Optimizer, Settings};
-use crate::solution::Solution;
 use crate::stage_functions::StageFunctions;
-use crate::start::{Guess, Start};
 
 /// How close to their bounds the variables and multipliers of a warm start may stay: it is nearly
 /// optimal, and pushing it back inside would undo that.
@@ -25,7 +26,7 @@ const BETWEEN_TOLERANCE: f64 = 1e-6;
 /// nearly flat in some direction, so small a barrier parameter lets none converge.
 const WARM_ITERATIONS: u32 = 200;
 
-/// Settings for a grid on the way, whose solution is only a start.
+/// Settings for a grid between, whose solution is only a start.
 fn between_settings(settings: &Settings) -> Settings {
     let mut between = warm_start_settings(settings, BETWEEN_BARRIER);
     between.ipopt.tolerance = settings.ipopt.tolerance.max(BETWEEN_TOLERANCE);
@@ -71,47 +72,75 @@ pub fn close_guess_settings(settings: &Settings) -> Settings {
     Settings { ipopt, ..*settings }
 }
 
-/// Carries `point`, solved on a coarse grid over the same horizon, to `grid` by way of grids of
-/// `between` steps. Where a warm start does not converge, the motion alone is a start, as cold as any.
-/// Stops at the first grid on which that fails too: its solution is then the one returned.
-///
-/// # Errors
-/// Those of [`MultipleShooting::new`] and [`MultipleShooting::solve`].
-pub fn refine(
-    functions: &StageFunctions,
-    grid: Grid,
-    between: &[usize],
-    initial: &[f64],
-    mut point: Point,
-    settings: &Settings,
-    mut on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<Solution, OcpError> {
-    let mut attempts = Vec::new();
-    let mut climb = |steps: usize, point: Point, warm: &Settings| -> Result<_, OcpError> {
-        let mut program = MultipleShooting::new(functions, grid.with_steps(steps)?, initial)?;
-        let point = point.resampled(program.initial_state(), steps);
-        let mut solve = |program: &mut MultipleShooting<'_>, start: Start, settings: &Settings| {
-            let mut solution = program.solve(&start, settings, &mut on_iteration)?;
+/// Carries a solution on a coarse grid to a finer one over the same horizon (mesh refinement; Betts,
+/// *Practical Methods for Optimal Control*, ch. 4), with multipliers and all, by way of grids
+/// between.
+#[derive(Debug, Clone, Copy)]
+pub struct MeshRefinement<'a> {
+    /// The problem.
+    pub functions: &'a StageFunctions,
+    /// x_0, all states of the problem.
+    pub initial: &'a [f64],
+    /// The grid to arrive at.
+    pub grid: Grid,
+    /// Numbers of steps of the grids between, in order.
+    pub between: &'a [usize],
+    /// How to solve on the last grid. Those between are solved by [`Optimizer::Interior`] and no
+    /// more tightly than pays.
+    pub settings: &'a Settings,
+}
+
+impl MeshRefinement<'_> {
+    /// From `point`, solved on some coarser grid. Where a warm start does not converge, the motion
+    /// alone is an initial guess, as cold as any. Stops at the first grid on which that fails too:
+    /// its solution is then the one returned.
+    ///
+    /// # Errors
+    /// Those of [`MultipleShooting::new`] and [`MultipleShooting::solve`].
+    pub fn refine(
+        &self,
+        mut point: PrimalDualPoint,
+        mut on_iteration: impl FnMut(&Iteration) -> Control,
+    ) -> Result<OcpSolution, OcpError> {
+        let mut attempts = Vec::new();
+        let coarse = between_settings(self.settings);
+        for &steps in self.between {
+            let mut solution = self.solve_on(steps, &point, &coarse, &mut on_iteration)?;
             attempts.append(&mut solution.attempts);
-            Ok(solution)
-        };
-        let solution = solve(&mut program, Start::Warm(point.clone()), warm)?;
+            if !solution.status.is_success() {
+                return Ok(OcpSolution { attempts, ..solution });
+            }
+            point = solution.point;
+        }
+        let last = last_settings(self.settings);
+        let mut solution = self.solve_on(self.grid.steps(), &point, &last, &mut on_iteration)?;
+        attempts.append(&mut solution.attempts);
+        Ok(OcpSolution { attempts, ..solution })
+    }
+
+    /// Solves on a grid from a point of another one: warm with these settings, and where that does
+    /// not converge cold.
+    fn solve_on(
+        &self,
+        steps: usize,
+        point: &PrimalDualPoint,
+        warm: &Settings,
+        on_iteration: &mut impl FnMut(&Iteration) -> Control,
+    ) -> Result<OcpSolution, OcpError> {
+        let grid = self.grid.with_steps(steps)?;
+        let mut program = MultipleShooting::new(self.functions, grid, self.initial)?;
+        let point = point.resampled(program.initial_state(), steps);
+        let mut solution =
+            program.solve(&OcpStart::Warm(point.clone()), warm, &mut *on_iteration)?;
         if solution.status.is_success() || solution.status == Status::UserStop {
             return Ok(solution);
         }
         let (states, controls) = program.trajectory(&point);
-        let ipopt = Options { tolerance: warm.ipopt.tolerance, ..settings.ipopt.clone() };
-        let cold = Settings { ipopt, ..*settings };
-        solve(&mut program, Start::Guess(Guess { states, controls }), &cold)
-    };
-    let on_the_way = between_settings(settings);
-    for &steps in between {
-        let solution = climb(steps, point, &on_the_way)?;
-        if !solution.status.is_success() {
-            return Ok(Solution { attempts, ..solution });
-        }
-        point = solution.point;
+        let ipopt = Options { tolerance: warm.ipopt.tolerance, ..self.settings.ipopt.clone() };
+        let cold = Settings { ipopt, ..*self.settings };
+        let guess = OcpStart::Guess(InitialGuess { states, controls });
+        let mut again = program.solve(&guess, &cold, on_iteration)?;
+        again.attempts.splice(..0, solution.attempts.drain(..));
+        Ok(again)
     }
-    let solution = climb(grid.steps(), point, &last_settings(settings))?;
-    Ok(Solution { attempts, ..solution })
 }
