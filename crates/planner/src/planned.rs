@@ -104,7 +104,7 @@ fn timing(found: &Found, verify: Duration) -> Timing {
     }
 }
 
-fn versions(solution: &righting_ocp::Solution, program: &str) -> Versions {
+fn versions(solution: &righting_ocp::OcpSolution, program: &str) -> Versions {
     let found = righting_ipopt::versions();
     let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
     let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
@@ -124,7 +124,7 @@ fn versions(solution: &righting_ocp::Solution, program: &str) -> Versions {
 fn trajectory(
     scenario: &Scenario,
     coordinates: &Coordinates,
-    solution: &righting_ocp::Solution,
+    solution: &righting_ocp::OcpSolution,
 ) -> Result<Trajectory, ShapeError> {
     let system = &scenario.system().model;
     let steps = scenario.horizon().steps;
