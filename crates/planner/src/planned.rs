@@ -6,8 +6,8 @@ use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
-    AttemptRecord, Interval, IterationRecord, Node, Solution, Status, Terminal, Timing, Trajectory,
-    UsedOptimizer, Verification, Versions,
+    AttemptRecord, ControlInterval, IterationRecord, Node, Solution, Status, Terminal, Timing,
+    Trajectory, UsedOptimizer, Verification, Versions,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
@@ -154,7 +154,7 @@ fn trajectory(
             joint_rates_rad_s: state.joint_rates,
         });
         if k < steps {
-            intervals.push(Interval {
+            intervals.push(ControlInterval {
                 joint_accelerations_rad_s2: accelerations.to_vec(),
                 joint_torques_n_m: torques,
             });

@@ -87,9 +87,9 @@ fn plain(scenario: &Scenario) -> Settings {
             file::Optimizer::Interior => Optimizer::Interior,
         },
         linear_solver: match solver.linear_solver {
-            file::LinearSolver::Auto => LinearSolverChoice::Auto,
-            file::LinearSolver::Mumps => LinearSolverChoice::Mumps,
-            file::LinearSolver::Stage => LinearSolverChoice::Stage,
+            file::LinearSolverChoice::Auto => LinearSolverChoice::Auto,
+            file::LinearSolverChoice::Mumps => LinearSolverChoice::Mumps,
+            file::LinearSolverChoice::Stage => LinearSolverChoice::Stage,
         },
         ..Settings::default()
     }
