@@ -11,7 +11,7 @@
 //! Shared with the planner are the file's types and the check of its values, the horizon's times, and
 //! the trajectory itself.
 //!
-//! Tolerances are part of every [`Check`](crate::Check) and so of every report:
+//! Tolerances are part of every [`Check`](righting_results::Check) and so of every report:
 //!
 //! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes, where a plan has no
 //!   constraints, joint angles and clearances to 1e-3;

@@ -25,7 +25,7 @@ use righting_scenario::collision::CollisionModel;
 use righting_scenario::file::{Formulation, Guess, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 
-/// A scenario as an optimal control problem: what [`plan`](crate::plan) transcribes and solves.
+/// A scenario as an optimal control problem: what [`Planner`](crate::Planner) transcribes and solves.
 pub struct FormulatedManeuver {
     /// The problem, in continuous time.
     pub problem: ControlProblem,
