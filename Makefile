@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-slurm test-planted bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -10,6 +10,8 @@ demo: setup
 test:
 	@scripts/setup.sh test
 	cargo test --workspace --locked
+	# The bindings again, linked to Ipopt instead of opening it.
+	cargo test -p righting-ipopt-sys --no-default-features --locked
 
 # Starts Slurm's daemons, so not part of `test`: as root, with Debian's slurmctld and slurmd.
 test-slurm: setup
@@ -19,6 +21,10 @@ test-slurm: setup
 # Errors planted in the planner's model, each caught by the verifier's: 11 minutes of one core.
 test-planted: setup
 	scripts/test-planted-errors.sh
+
+# The same on Debian 13, in a root of its own: as root, with debootstrap.
+test-debian13:
+	scripts/test-debian13.sh
 
 # The paper's figures and tables, with its numbers beside ours: docs/paper.md.
 paper: setup

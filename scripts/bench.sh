@@ -8,6 +8,6 @@ if [ ! -x bench/.venv/bin/python ]; then
 fi
 bench/.venv/bin/python -m pip install --quiet --disable-pip-version-check -r bench/requirements.txt
 cargo build --release --locked
-cargo build --release --locked -p righting-maneuver --example costs
+cargo build --release --locked -p righting-planner --example costs
 program="${CARGO_TARGET_DIR:-target}/release/righting"
 exec bench/.venv/bin/python bench/compare.py --righting "$program" "$@"

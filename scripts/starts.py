@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the start of a search is worth: plans every maneuver from the constant guess, from the
-automatic one and from many random starts, and writes the objectives as docs/starts.md.
+"""What an initial guess is worth: plans every maneuver from the constant guess, from the automatic
+one and from many low-discrepancy starts, and writes the objectives as docs/starts.md.
 
     scripts/starts.py [--righting target/release/righting] [--out docs/starts.md] [--jobs 1]
 """
@@ -20,7 +20,7 @@ SHIPPED = [
     for kind in ("slew", "detumble")
     for system in ("2dof", "4dof", "canadarm2_table", "canadarm2")
 ]
-RANDOM_STARTS = 64
+HALTON_STARTS = 64
 SEED = 0
 # Plans this close to each other are the same optimum.
 SAME = 1e-3
@@ -63,7 +63,7 @@ def objective(righting, asked, guess):
 
 
 def compared(righting, asked):
-    guesses = ["constant", "auto", {"starts": RANDOM_STARTS, "seed": SEED}]
+    guesses = ["constant", "auto", {"starts": HALTON_STARTS, "seed": SEED}]
     found = [objective(righting, asked, guess) for guess in guesses]
     print(asked["name"], asked["maneuver"], found, file=sys.stderr, flush=True)
     return found
@@ -84,42 +84,48 @@ def table(head, rows):
 
 
 def report(named, further):
-    columns = ["constant", "auto", f"{RANDOM_STARTS} random"]
-    return f"""# What a start is worth
+    columns = ["constant", "auto", f"{HALTON_STARTS} Halton"]
+    return f"""# What an initial guess is worth
 
-Objectives of plans from the constant guess, from the automatic one and from {RANDOM_STARTS} random starts
-(`{{"starts": {RANDOM_STARTS}, "seed": {SEED}}}`). In bold is the best of a row and what lies within {SAME:.1%} of it; the best known is no more than that.
-Against 45 starts of every kind on the coarse grid the automatic guess misses more: 9 of 40 slews, see
-[decisions.md](decisions.md). `make starts` plans all of it again and writes this page.
+The tables show the objectives of plans from three initial guesses: the constant guess, the automatic one, and
+the best of {HALTON_STARTS} low-discrepancy starts (`{{"starts": {HALTON_STARTS}, "seed": {SEED}}}`). A low-discrepancy
+start moves every joint smoothly to some angle; the angles are points of a Halton sequence. The best of a row
+is in bold, and so is what lies within {SAME:.1%} of it. The best known is no more than the best of these three.
+
+The automatic guess misses more than these tables show: against 45 starts of every kind, on the coarse grid, it
+missed the best optimum of 9 of 40 slews ([decisions.md](decisions.md#initial-guesses)).
+
+`make starts` plans all of it again and writes this page. Do not edit it.
 
 {table(["maneuver", *columns], [[name, *cells(found)] for name, found in named])}
 {summary(named, "maneuvers above")}
-
 ## Further slews
 
-On {FURTHER_STEPS} steps. The kinds of starts were chosen on slews about x, y and two other skew axes; the skew axes here had
-no part in it.
+These are on {FURTHER_STEPS} steps. The kinds of starts were chosen on slews about x, y and two other skew axes. The
+skew axes here had no part in that choice.
 
 {table(["arm", "angle", "axis", "duration", *columns], [[*name, *cells(found)] for name, found in further])}
-{summary(further, "further slews")
-}
-{summary([row for row in further if row[0][2] not in ("[1, 0, 0]", "[0, 1, 0]")], "skew ones among them")}
-"""
+{summary(further, "further slews")}
+{summary([row for row in further if row[0][2] not in ("[1, 0, 0]", "[0, 1, 0]")], "skew slews among them")}"""
 
 
 def summary(rows, what):
-    def hits(index):
-        return sum(found[index] <= min(found) * (1 + SAME) for _, found in rows)
-
-    def excess(index):
+    def line(name, index):
+        hits = sum(found[index] <= min(found) * (1 + SAME) for _, found in rows)
         ratios = sorted(found[index] / min(found) for _, found in rows)
-        worst = f"{ratios[-1] - 1:.0%}" if math.isfinite(ratios[-1]) else "without a plan"
-        return f"median {ratios[len(ratios) // 2] - 1:.1%} above the best, at worst {worst}"
+        worst = f"{ratios[-1] - 1:.0%}" if math.isfinite(ratios[-1]) else "no plan"
+        return f"| {name} | {hits} of {len(rows)} | {ratios[len(ratios) // 2] - 1:.1%} | {worst} |"
 
-    return (
-        f"Of the {len(rows)} {what} the automatic guess finds the best known of {hits(1)} ({excess(1)}),\n"
-        f"the constant guess of {hits(0)} ({excess(0)}),\n"
-        f"{RANDOM_STARTS} random starts of {hits(2)} ({excess(2)})."
+    names = ["constant", "auto", f"{HALTON_STARTS} Halton"]
+    return "\n".join(
+        [
+            f"Of the {len(rows)} {what}, how many end at the best known plan, and how far the objectives lie above it:",
+            "",
+            "| initial guess | best known | median excess | largest excess |",
+            "| --- | --- | --- | --- |",
+            *(line(name, index) for index, name in enumerate(names)),
+            "",
+        ]
     )
 
 

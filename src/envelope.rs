@@ -4,10 +4,14 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::envelope::{Sizing, read_system_or_scenario};
-use righting_maneuver::wheels::{Radii, Wheel, Zonotope};
-use righting_maneuver::{Envelope, Envelopes, WheelArray, envelopes};
+use righting_analysis::envelope::Sizing;
+use righting_analysis::zonotope::{Radii, Zonotope};
+use righting_analysis::{Envelope, Envelopes, envelopes};
 use righting_report::{EnvelopeOutlines, envelope_svg};
+use righting_scenario::WheelArray;
+use righting_scenario::json::FileKind;
+use righting_scenario::system_description::read_system_or_scenario;
+use righting_scenario::wheels::Wheel;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -69,11 +73,12 @@ struct PrintedWheels<'a> {
 /// Reads, searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
-    let system = read_system_or_scenario(&arguments.file)?;
+    let system = read_system_or_scenario(&arguments.file)
+        .map_err(|error| Failure::InputOf { kind: FileKind::SystemOrScenario, error })?;
     let wheels = arguments.wheels.read()?;
     let folder = OutputFolder::open(&arguments.out)?;
     let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);
-    let zonotopes = [wheels.momentum(), wheels.torque()];
+    let zonotopes = [Zonotope::momenta(wheels.wheels()), Zonotope::torques(wheels.wheels())];
     let [momentum, torque] = [zonotopes[0].radii(), zonotopes[1].radii()];
     let printed = Printed {
         schema: "righting.envelope/1",
@@ -124,8 +129,8 @@ pub fn figure(name: &str, found: &Envelopes, wheels: &WheelArray) -> String {
         sampled: envelope.sampled_hull.vertices.clone(),
         wheels: wheels.vertices(),
     };
-    let momentum = outlines(&found.momentum, &wheels.momentum());
-    envelope_svg(name, &momentum, &outlines(&found.torque, &wheels.torque()))
+    let momentum = outlines(&found.momentum, &Zonotope::momenta(wheels.wheels()));
+    envelope_svg(name, &momentum, &outlines(&found.torque, &Zonotope::torques(wheels.wheels())))
 }
 
 fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {

@@ -7,12 +7,12 @@ use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::Offset;
-use righting_maneuver::{Verified, verify_directory};
 use righting_report::{AemOptions, aem, npz};
+use righting_verifier::Verified;
 
 use crate::failure::Failure;
-use crate::output;
 use crate::output_folder::{AEM_FILE, NPZ_FILE, OutputFolder};
+use crate::{output, plan_folder};
 
 /// Write a plan in the format of other programs.
 #[derive(Args)]
@@ -69,7 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "--format npz: an archive holds the plan alone, no epoch, frame or names",
         ));
     }
-    let Verified { solution, scenario, trajectory } = verify_directory(&arguments.folder)?;
+    let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
     if let Some(failure) = Failure::of_verification(&solution) {
         return Err(failure);
     }
@@ -108,5 +108,5 @@ impl Message {
 /// A civil time; a closing Z, which the format allows for UTC, is taken.
 fn epoch(text: &str) -> Result<DateTime, String> {
     let text = text.strip_suffix('Z').unwrap_or(text);
-    text.parse().map_err(|_| "a time such as 2027-03-01T12:00:00 is needed".to_owned())
+    text.parse().map_err(|_| "expected a time such as 2027-03-01T12:00:00".to_owned())
 }

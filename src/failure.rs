@@ -1,19 +1,40 @@
 //! Everything that ends a command with an exit code other than 0.
 
-use std::io::{self, ErrorKind};
+use std::io;
 use std::path::PathBuf;
 
-use righting_maneuver::verifier::ATTITUDE_ERROR;
-use righting_maneuver::{PlanError, ReachError, Solution, Status};
+use righting_ipopt::LoadError;
+use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
+use righting_results::{Solution, Status};
+use righting_scenario::error::Mismatch;
+use righting_scenario::json::FileKind;
 use righting_sweep::SweepError;
+use righting_verifier::ATTITUDE_ERROR;
 
 /// Why a command did not do what was asked. Messages are read at one glance.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A file of the user's is wrong or cannot be read or written.
     #[error(transparent)]
-    Input(#[from] righting_maneuver::Error),
+    Input(#[from] righting_scenario::Error),
+    /// The same of a file that is no scenario.
+    #[error("{error}")]
+    InputOf {
+        /// What the file should be.
+        kind: FileKind,
+        /// What is wrong with it.
+        #[source]
+        error: righting_scenario::Error,
+    },
+    /// A file stands where a folder is expected.
+    #[error("{}: {}", path.display(), Mismatch::new("a file", expected))]
+    NotAFolder {
+        /// The file.
+        path: PathBuf,
+        /// Such as "the folder of a plan".
+        expected: &'static str,
+    },
     /// The output folder cannot take results; found out before solving.
     #[error("{}: cannot hold results: {problem}", folder.display())]
     OutputFolder {
@@ -21,6 +42,20 @@ pub enum Failure {
         folder: PathBuf,
         /// What is in the way.
         problem: String,
+    },
+    /// An earlier plan to start from is of an arm with more or fewer joints.
+    #[error(
+        "{}: {}",
+        folder.display(),
+        Mismatch::new(format_args!("a plan of {found} joints"), expected)
+    )]
+    OtherArm {
+        /// The folder of the earlier plan.
+        folder: PathBuf,
+        /// How many joints its arm has.
+        found: usize,
+        /// How many the scenario's has.
+        expected: usize,
     },
     /// Arguments that contradict each other, beyond what the parser sees.
     #[error("{0}")]
@@ -43,12 +78,15 @@ pub enum Failure {
     /// Stdout does not take what is printed.
     #[error("cannot print results: {0}")]
     Stdout(io::Error),
-    /// The machine lacks something.
+    /// The machine lacks something, as its diagnosis says.
     #[error("not ready to solve: {problem}")]
     NotReady {
         /// What, and what to do about it.
-        problem: &'static str,
+        problem: String,
     },
+    /// There is no optimizer.
+    #[error("not ready to solve: {0}")]
+    NoOptimizer(#[from] LoadError),
     /// The optimizer ended without a plan.
     #[error("no acceptable plan: {}", status_phrase(*status))]
     NoPlan {
@@ -102,6 +140,9 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input(_)
+            | Self::InputOf { .. }
+            | Self::NotAFolder { .. }
+            | Self::OtherArm { .. }
             | Self::OutputFolder { .. }
             | Self::Usage(_)
             | Self::Sweep(_)
@@ -109,59 +150,11 @@ impl Failure {
             | Self::NotShown { .. }
             | Self::Stdout(_)
             | Self::NotReady { .. }
+            | Self::NoOptimizer(_)
             | Self::NotSearched(_) => 2,
             Self::NoPlan { .. } | Self::NotPlanned(_) | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
             Self::Interrupted => 130,
-        }
-    }
-
-    /// What may help, where that is not plain from the message.
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::Input(righting_maneuver::Error::Field { .. }) => {
-                Some("`righting schema` prints the format with every field")
-            }
-            Self::Sweep(SweepError::Input(righting_maneuver::Error::Field { .. })) => {
-                Some("`righting schema sweep` prints the format with every field")
-            }
-            Self::Sweep(SweepError::Occupied { .. }) => {
-                Some("add --resume to go on from there, or name another folder with --out")
-            }
-            Self::Sweep(SweepError::Write { source, .. }) => Some(match source.kind() {
-                ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
-                    "what is recorded is safe: make it writable, then go on (a whole sweep with --resume)"
-                }
-                _ => {
-                    "what is recorded is safe: make room, then go on (a whole sweep with --resume)"
-                }
-            }),
-            Self::Report(ReportError::NoPng) => {
-                Some("build it with `cargo build --release --features png`")
-            }
-            Self::Report(ReportError::NoFonts) => {
-                Some("install some, such as Debian's fonts-dejavu-core, or leave --png out")
-            }
-            Self::NotShown { .. } => {
-                Some("`righting figures` and `righting report` make the rest, from that folder")
-            }
-            Self::OutputFolder { .. } => Some("name another folder with --out"),
-            Self::NoPlan { status: Status::Infeasible } => {
-                Some("a longer duration, a smaller angle or wider limits may make it possible")
-            }
-            Self::NoPlan { status: Status::IterationLimit } => {
-                Some("raise solver.max_iterations, or try solver.guess \"auto\"")
-            }
-            Self::NoPlan { .. } => Some("another solver.guess or a longer duration may help"),
-            Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
-            Self::OutOfReach { .. } => Some(
-                "wider limits, a smaller weights.control or more --starts may make it possible",
-            ),
-            Self::Unproven { falls_short: true, .. } => {
-                Some("it misses its target: a longer duration or a smaller angle may help")
-            }
-            Self::Unproven { .. } => Some("do not use this plan"),
-            _ => None,
         }
     }
 

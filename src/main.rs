@@ -4,24 +4,30 @@
 //! those of [`failure::Failure`].
 #![forbid(unsafe_code)]
 
-mod blas;
 mod build;
+mod completions;
 mod doctor;
 mod envelope;
 mod export;
 mod failure;
 mod figures;
+mod hint;
 mod interrupt;
+mod manpages;
+mod optimizer;
 mod output;
 mod output_folder;
+mod plan_folder;
 mod power;
 mod progress;
 mod reach;
 mod report;
+mod scenario_input;
 mod schema;
 mod solve;
 mod sweep;
 mod verify;
+mod warm_start;
 mod wheels;
 
 use std::process::ExitCode;
@@ -29,22 +35,32 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+use crate::output::Label;
 
 /// Plans how a free-floating spacecraft turns itself with nothing but its robot arm.
 #[derive(Parser)]
-#[command(name = "righting", version = build::VERSION, after_help = EXIT_CODES)]
+#[command(name = NAME, version = build::VERSION, after_help = exit_codes())]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
 
-const EXIT_CODES: &str = "\
-Exit codes:
-  0    done and verified
-  2    bad input or usage
-  3    no acceptable plan
-  4    a plan was found but failed its verification
-  130  interrupted";
+/// Name of the program.
+const NAME: &str = "righting";
+
+const EXIT_CODES: [(u8, &str); 5] = [
+    (0, "done and verified"),
+    (2, "bad input or usage"),
+    (3, "no acceptable plan"),
+    (4, "a plan was found but failed its verification"),
+    (130, "interrupted"),
+];
+
+/// The exit codes as the help lists them.
+fn exit_codes() -> String {
+    let rows = EXIT_CODES.map(|(code, meaning)| format!("\n  {code:<3}  {meaning}"));
+    format!("Exit codes:{}", rows.concat())
+}
 
 #[derive(Subcommand)]
 enum Command {
@@ -62,12 +78,19 @@ enum Command {
     Export(export::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
+    Completions(completions::Arguments),
+    Manpages(manpages::Arguments),
 }
 
 fn main() -> ExitCode {
-    blas::use_one_thread();
     let command = Arguments::parse().command;
+    if command.solves() {
+        optimizer::prepare();
+    }
     let json = command.prints_json();
+    if json {
+        output::never_in_color();
+    }
     let result = match command {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
@@ -81,6 +104,8 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Manpages(arguments) => manpages::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -89,6 +114,11 @@ fn main() -> ExitCode {
 }
 
 impl Command {
+    /// Whether it solves anything in this process.
+    fn solves(&self) -> bool {
+        matches!(self, Self::Solve(_) | Self::Reach(_) | Self::SweepWorker | Self::Doctor(_))
+    }
+
     fn prints_json(&self) -> bool {
         match self {
             Self::Solve(arguments) => arguments.json,
@@ -98,7 +128,12 @@ impl Command {
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
-            Self::Figures(_) | Self::Export(_) | Self::SweepWorker | Self::Schema(_) => false,
+            Self::Figures(_)
+            | Self::Export(_)
+            | Self::SweepWorker
+            | Self::Schema(_)
+            | Self::Completions(_)
+            | Self::Manpages(_) => false,
             Self::Doctor(arguments) => arguments.json,
         }
     }
@@ -106,9 +141,9 @@ impl Command {
 
 /// Says on stderr what went wrong; who asked for JSON gets one object whatever happens.
 fn complain(failure: &Failure, json: bool) -> ExitCode {
-    output::complain(&format!("error: {failure}"));
+    output::say(Label::Error, &failure.to_string());
     if let Some(hint) = failure.hint() {
-        output::complain(&format!("  hint: {hint}"));
+        output::say(Label::Hint, hint);
     }
     if json && !failure.follows_results() {
         let object = serde_json::json!({

@@ -3,8 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use righting_maneuver::files;
-use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
+use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE};
+use righting_scenario::file_io;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -149,7 +149,7 @@ impl OutputFolder {
     /// Writes a file, whole or not at all; its path.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<PathBuf, Failure> {
         let file = self.folder.join(name);
-        files::replace(&file, |writer| writer.write_all(contents))?;
+        file_io::replace(&file, |writer| writer.write_all(contents))?;
         Ok(file)
     }
 
@@ -165,7 +165,7 @@ impl OutputFolder {
 
     fn remove(&self, names: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
         for name in names {
-            files::remove(&self.folder.join(name))?;
+            file_io::remove(&self.folder.join(name))?;
         }
         Ok(())
     }

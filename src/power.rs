@@ -4,17 +4,19 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
-use righting_maneuver::wheels::Wheel;
-use righting_maneuver::{Error, PowerProfile, Verified, verify_directory};
+use righting_analysis::PowerProfile;
+use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
 use righting_report::{PowerComparison, power_svg, power_table};
+use righting_scenario::Error;
+use righting_scenario::wheels::Wheel;
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::figures::Formats;
-use crate::output;
 use crate::output_folder::{OutputFolder, POWER_FIGURE_FILE, POWER_FILE};
 use crate::wheels::Wheels;
+use crate::{output, plan_folder};
 
 /// Work out the joint torques of a plan and the power they take, beside reaction wheels.
 #[derive(Args)]
@@ -63,7 +65,7 @@ struct PrintedWheels<'a> {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
     let wheels = arguments.wheels.read()?;
-    let Verified { solution, scenario, trajectory } = verify_directory(&arguments.folder)?;
+    let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
     let efficiency = arguments.efficiency;
@@ -111,6 +113,6 @@ fn name(accounting: Accounting) -> &'static str {
 fn efficiency(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1.0 => Ok(value),
-        _ => Err("more than 0, at most 1".to_owned()),
+        _ => Err("expected more than 0, at most 1".to_owned()),
     }
 }

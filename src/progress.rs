@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use righting_maneuver::IterationRecord;
+use righting_results::IterationRecord;
 
 use crate::output;
 
@@ -51,11 +51,6 @@ impl Progress {
             true => output::complain(line),
             false => self.bar.println(line),
         }
-    }
-
-    /// Shows what is done after the iterations.
-    pub fn show_stage(&self, stage: &'static str) {
-        self.bar.set_message(stage);
     }
 }
 

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::reach::{self, Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
-use righting_maneuver::scenario::MAX_STARTS;
-use righting_maneuver::{Maneuver, Scenario};
 use righting_ocp::Control;
+use righting_planner::reach;
+use righting_planner::reach::{Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_report::{FigureWriter, reach_summary, reach_svg};
+use righting_scenario::scenario::MAX_STARTS;
+use righting_scenario::{Maneuver, Scenario};
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
 use serde_json::Value;
@@ -16,10 +17,10 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::figures::{FigureSet, Formats};
 use crate::interrupt::Interrupt;
-use crate::output;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
-use crate::solve::{Shown, Times, assemble, write};
+use crate::solve::{Shown, write};
+use crate::{build, optimizer, output, scenario_input};
 
 const JSON_FILE: &str = "reach.json";
 const FIGURE_FILE: &str = "reach.svg";
@@ -41,7 +42,7 @@ const PLAN_FOLDER: &str = "plan";
 #[derive(Args)]
 #[command(mut_arg("png", |png| png.requires("out")))]
 pub struct Arguments {
-    /// The scenario, a JSON file.
+    /// The scenario, a JSON file; - for standard input.
     scenario: PathBuf,
     /// What to vary.
     #[arg(long, value_enum, default_value_t = What::Duration)]
@@ -52,7 +53,7 @@ pub struct Arguments {
     /// Detumble: how many percent above the bound the rate left may be; 2 if not given.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     within: Option<f64>,
-    /// Try so many random starts too before a value counts as failed.
+    /// Try so many more initial guesses (a Halton sequence) too before a value counts as failed.
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u64).range(0..=MAX_STARTS))]
     starts: u64,
@@ -89,7 +90,7 @@ fn percent(text: &str) -> Result<f64, String> {
 
 fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| (low..=high).contains(value));
-    value.ok_or_else(|| format!("a number from {low} to {high} is needed"))
+    value.ok_or_else(|| format!("expected a number from {low} to {high}"))
 }
 
 /// What reach.json holds and `--json` prints.
@@ -150,12 +151,13 @@ pub fn schema() -> Value {
 /// Searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
+    let mut scenario = scenario_input::read(&arguments.scenario)?;
+    // From here on: until then a signal may end the process while it waits for standard input.
     let interrupt = Interrupt::watch();
-    let mut scenario = Scenario::read(&arguments.scenario)?;
     if arguments.control_weight.is_some() {
         let mut file = scenario.resolved().clone();
         file.weights.control = arguments.control_weight;
-        scenario = Scenario::from_file(file, &arguments.scenario)?;
+        scenario = Scenario::from_file(file, scenario_input::name(&arguments.scenario))?;
     }
     if arguments.within.is_some() && *scenario.maneuver() != Maneuver::Detumble {
         return Err(Failure::Usage("--within: only a detumble leaves a rate, this is a slew"));
@@ -173,6 +175,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ..defaults
     };
     let writer = arguments.formats.writer()?;
+    optimizer::load()?;
     let folder = match &arguments.out {
         Some(out) => Some(OutputFolder::open(out)?),
         None => None,
@@ -210,7 +213,7 @@ fn show(progress: &Progress, quantity: Quantity, step: reach::Progress<'_>) {
             let start = match start {
                 StartedFrom::Cold => "cold",
                 StartedFrom::Neighbor => "from the nearest success",
-                StartedFrom::Random => "from random starts",
+                StartedFrom::LowDiscrepancy => "from more initial guesses",
             };
             progress.name(format!("{}, {start}: ", shown(value)));
         }
@@ -267,12 +270,13 @@ fn keep(
 ) -> Result<Vec<PathBuf>, Failure> {
     let mut files = vec![folder.write(JSON_FILE, output::to_json(printed)?.as_bytes())?];
     let plan_folder = folder.path().join(PLAN_FOLDER);
-    if let Some(Reached { scenario, plan, verification, verify }) = &found.plan {
-        let times = Times { load, verify: *verify };
-        let mut solution = assemble(scenario, plan, verification.clone(), times);
+    if let Some(Reached { scenario, planned }) = &found.plan {
+        let mut solution = planned.solution.clone();
+        solution.timing_s.load = load.as_secs_f64();
+        build::VERSION.clone_into(&mut solution.versions.righting);
         let plan_folder = OutputFolder::open(&plan_folder)?;
         let shown = Shown { figures: FigureSet::Usual, writer, page: true };
-        let trajectory = &plan.trajectory;
+        let trajectory = &planned.trajectory;
         let written = write(&plan_folder, shown, scenario, &mut solution, trajectory, started)?;
         files.extend(written.paths());
     } else if plan_folder.is_dir() {

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::{Verified, verify_directory};
 use righting_report::report_html;
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::output;
 use crate::output_folder::{OutputFolder, REPORT_FILE};
+use crate::{output, plan_folder};
 
 /// Check the plan in a folder again and write its interactive page, report.html.
 #[derive(Args)]
@@ -30,7 +30,7 @@ struct Printed<'a> {
 
 /// Reads, checks, writes and prints. The page shows what is found now, failures too.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Verified { solution, scenario, trajectory } = verify_directory(&arguments.folder)?;
+    let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
     let page = report_html(&scenario, &solution, &trajectory);
     let report = OutputFolder::open(&arguments.folder)?.write(REPORT_FILE, page.as_bytes())?;
     if arguments.json {

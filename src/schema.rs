@@ -1,7 +1,8 @@
 //! `righting schema`: the formats of the files.
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::schema::{scenario_schema, solution_schema, system_schema, wheels_schema};
+use righting_results::solution::solution_schema;
+use righting_scenario::schema::{scenario_schema, system_schema, wheels_schema};
 use righting_sweep::sweep_schema;
 
 use crate::failure::Failure;

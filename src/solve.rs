@@ -1,18 +1,16 @@
 //! `righting solve`: plan a maneuver, prove it, write it down.
 
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::Args;
-use righting_maneuver::detumble::rate_bound_rad_s;
-use righting_maneuver::solution::SCHEMA;
-use righting_maneuver::verifier::{SOLUTION_FILE, TRAJECTORY_FILE};
-use righting_maneuver::{
-    IterationRecord, Library, Maneuver, Plan, Scenario, Solution, Status, Terminal, Timing,
-    Trajectory, Verification, Versions, plan, plan_from, verify,
-};
-use righting_ocp::{Control, UsedLinearSolver};
+use righting_ocp::Control;
+use righting_planner::{Planned, Planner};
 use righting_report::{FigureWriter, report_html, summary};
+use righting_results::{
+    IterationRecord, SOLUTION_FILE, Solution, Status, TRAJECTORY_FILE, Trajectory,
+};
+use righting_scenario::Scenario;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -20,12 +18,13 @@ use crate::figures::{FigureSet, Formats, draw};
 use crate::interrupt::Interrupt;
 use crate::output_folder::{OutputFolder, REPORT_FILE, ResultFiles};
 use crate::progress::Progress;
-use crate::{build, output};
+use crate::warm_start::WarmStart;
+use crate::{build, optimizer, output, scenario_input};
 
 /// Plan the maneuver of a scenario, verify the plan and write it to a folder.
 #[derive(Args)]
 pub struct Arguments {
-    /// The scenario, a JSON file.
+    /// The scenario, a JSON file; - for standard input.
     scenario: PathBuf,
     /// The folder for trajectory.csv, solution.json, the figures and report.html; made if missing.
     #[arg(long, value_name = "DIR")]
@@ -35,7 +34,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     warm_start: Option<PathBuf>,
     /// A folder of such result folders: the nearest maneuver of the same arm and type is a start
-    /// too. To add this plan to it, name a folder in it with --out.
+    /// too. To add this plan to it, name a folder in it with --out. Made if missing.
     #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
     library: Option<PathBuf>,
     /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
@@ -51,9 +50,6 @@ pub struct Arguments {
     pub json: bool,
 }
 
-/// So many subfolders of a library that are of no use are named.
-const MOST_WARNINGS: usize = 10;
-
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Printed<'a> {
@@ -65,23 +61,20 @@ struct Printed<'a> {
 /// Solves, verifies, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let started = Instant::now();
-    let interrupt = Interrupt::watch();
     if arguments.figures == FigureSet::None && arguments.formats.png {
         return Err(Failure::Usage("--png and --figures none: there is no figure to write as PNG"));
     }
-    let scenario = Scenario::read(&arguments.scenario)?;
+    let scenario = scenario_input::read(&arguments.scenario)?;
+    // From here on: until then a signal may end the process while it waits for standard input.
+    let interrupt = Interrupt::watch();
     let load = started.elapsed();
-    let mut note = None;
-    let earlier = match (&arguments.warm_start, &arguments.library) {
-        (Some(folder), _) => Some(Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?),
-        (None, Some(library)) => {
-            let (said, trajectory) = nearest(library, &scenario)?;
-            note = Some(said);
-            trajectory
-        }
-        (None, None) => None,
+    let mut warm_start = match (&arguments.warm_start, &arguments.library) {
+        (Some(folder), _) => WarmStart::of_plan(folder, &scenario)?,
+        (None, Some(library)) => WarmStart::of_library(library)?,
+        (None, None) => WarmStart::None,
     };
     let writer = arguments.formats.writer()?;
+    optimizer::load()?;
     let folder = OutputFolder::open(&arguments.out)?;
 
     let progress = Progress::start();
@@ -89,15 +82,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         progress.show(record);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     };
-    let mut plan = match &earlier {
-        Some(earlier) => plan_from(&scenario, earlier, &mut on_iteration)?,
-        None => plan(&scenario, &mut on_iteration)?,
-    };
-    plan.notes.splice(..0, note);
-    progress.show_stage("verifying");
-    let mut solution = checked(&scenario, &plan, load);
+    let mut planner = Planner::new().program(build::VERSION);
+    match &mut warm_start {
+        WarmStart::None => {}
+        WarmStart::Plan { trajectory, .. } => planner = planner.warm_start(trajectory),
+        WarmStart::Library(library) => planner = planner.library(library),
+    }
+    let Planned { mut solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;
+    drop(planner);
+    warm_start.report(&mut solution);
+    solution.timing_s.load = load.as_secs_f64();
     let shown = Shown { figures: arguments.figures, writer: &writer, page: !arguments.no_report };
-    let files = write(&folder, shown, &scenario, &mut solution, &plan.trajectory, started)?;
+    let files = write(&folder, shown, &scenario, &mut solution, &trajectory, started)?;
     drop(progress);
 
     if arguments.json {
@@ -106,30 +102,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::print(&summary(&solution, &files.paths()))?;
     }
     conclude(&solution)
-}
-
-/// What a reader of the plan should know of the library, and the motion to start from, if it holds one.
-fn nearest(folder: &Path, scenario: &Scenario) -> Result<(String, Option<Trajectory>), Failure> {
-    let mut library = Library::read(folder)?;
-    let neighbor = library.nearest(scenario);
-    let shown = folder.display();
-    for skipped in library.skipped().iter().take(MOST_WARNINGS) {
-        output::complain(&format!("warning: {shown}: skipped {skipped}"));
-    }
-    let more = library.skipped().len().saturating_sub(MOST_WARNINGS);
-    if more > 0 {
-        output::complain(&format!("warning: {shown}: skipped {more} more"));
-    }
-    Ok(match neighbor {
-        Some(near) => (
-            format!(
-                "library maneuver {} was a start too (distance {:.3})",
-                near.name, near.distance
-            ),
-            Some(near.trajectory),
-        ),
-        None => (format!("library {shown} holds no maneuver of this type by this arm"), None),
-    })
 }
 
 /// Whether that is what was asked for.
@@ -194,75 +166,4 @@ fn show(
     let page = page.then(|| report_html(scenario, solution, trajectory));
     let page = page.map(|page| folder.write(REPORT_FILE, page.as_bytes())).transpose()?;
     Ok(ResultFiles::of_plan(folder, figures, page))
-}
-
-/// The solution that a plan amounts to, verified where there is something to verify.
-pub fn checked(scenario: &Scenario, plan: &Plan, load: Duration) -> Solution {
-    let checking = Instant::now();
-    let verification = match plan.status.is_acceptable() {
-        true => verify(scenario, &plan.trajectory),
-        false => Verification::default(),
-    };
-    let times = Times { load, verify: checking.elapsed() };
-    assemble(scenario, plan, verification, times)
-}
-
-/// What this command timed itself.
-pub struct Times {
-    pub load: Duration,
-    pub verify: Duration,
-}
-
-/// The contents of `solution.json`, but for the total time.
-pub fn assemble(
-    scenario: &Scenario,
-    plan: &Plan,
-    verification: Verification,
-    times: Times,
-) -> Solution {
-    let timing = plan.timing;
-    let terminal = Terminal::reached(scenario, &plan.trajectory);
-    let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
-    Solution {
-        schema: SCHEMA.to_owned(),
-        scenario: scenario.resolved().clone(),
-        scenario_sha256: scenario.resolved().sha256(),
-        versions: versions(plan),
-        status: plan.status,
-        objective: plan.objective,
-        iterations: plan.iterations,
-        constraint_violation: plan.constraint_violation,
-        terminal,
-        timing_s: Timing {
-            load: times.load.as_secs_f64(),
-            trace: timing.trace.as_secs_f64(),
-            guess: timing.guess.as_secs_f64(),
-            evaluate: timing.evaluate.as_secs_f64(),
-            linear_algebra: timing.linear_algebra.as_secs_f64(),
-            solve: timing.solve.as_secs_f64(),
-            verify: times.verify.as_secs_f64(),
-            total: 0.0,
-        },
-        verification,
-        bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
-        reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
-        notes: plan.notes.clone(),
-        history: plan.history.clone(),
-    }
-}
-
-fn versions(plan: &Plan) -> Versions {
-    let found = righting_ipopt::versions();
-    let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
-    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
-    Versions {
-        righting: build::VERSION.to_owned(),
-        ipopt: found.ipopt.to_owned(),
-        optimizer: plan.optimizer,
-        linear_solver: match plan.linear_solver {
-            UsedLinearSolver::Stage => "stage".to_owned(),
-            UsedLinearSolver::Mumps => format!("mumps {mumps}"),
-            UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),
-        },
-    }
 }

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::verifier::TRAJECTORY_FILE;
-use righting_maneuver::{Verification, Verified, verify_directory};
 use righting_report::verification_summary;
+use righting_results::{TRAJECTORY_FILE, Verification};
+use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::output;
+use crate::{output, plan_folder};
 
 /// Check the plan in a folder again, from its files alone.
 #[derive(Args)]
@@ -32,7 +32,7 @@ struct Printed<'a> {
 
 /// Reads, checks and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Verified { solution, scenario, .. } = verify_directory(&arguments.folder)?;
+    let Verified { solution, scenario, .. } = plan_folder::read(&arguments.folder)?;
     if arguments.json {
         output::print_json(&Printed {
             scenario: scenario.name(),

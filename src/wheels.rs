@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::WheelArray;
+use righting_scenario::WheelArray;
+use righting_scenario::json::FileKind;
 
 use crate::failure::Failure;
 
@@ -19,6 +20,7 @@ pub struct Wheels {
 impl Wheels {
     /// Reads them.
     pub fn read(&self) -> Result<WheelArray, Failure> {
-        Ok(WheelArray::read_or_pyramid(self.wheels.as_deref())?)
+        WheelArray::read_or_pyramid(self.wheels.as_deref())
+            .map_err(|error| Failure::InputOf { kind: FileKind::Wheels, error })
     }
 }

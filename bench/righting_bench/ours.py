@@ -20,11 +20,11 @@ VARIANTS: dict[str, dict[str, str]] = {
     "reduced, MUMPS, cold": {"formulation": "reduced", "linear_solver": "mumps", "guess": "constant"},
     "reduced, stage, cold": {"formulation": "reduced", "linear_solver": "stage", "guess": "constant"},
     "reduced, stage, continuation": {"formulation": "reduced", "linear_solver": "stage", "guess": "auto"},
-    "reduced, stage, continuation, all in Ipopt": {
+    "reduced, stage, continuation, all by interior": {
         "formulation": "reduced",
         "linear_solver": "stage",
         "guess": "auto",
-        "optimizer": "ipopt",
+        "optimizer": "interior",
     },
 }
 

@@ -1,11 +1,27 @@
-//! The loader of the HSL linear solvers (`HSLLoader.h`), through which a program can bring its own.
+//! MA57 of the HSL, which Ipopt calls when `linear_solver` is `ma57`, and the ways in which a
+//! program can be that MA57.
 //!
-//! Ipopt calls the functions set by [`LSL_setMA57`] whenever `linear_solver` is `ma57`, and looks
-//! for a shared library only while they are unset. They follow Fortran's conventions: every
-//! argument is a pointer, indices count from one. Array lengths are those of the MA57
-//! documentation; where Ipopt 3.11 reads a result, the comment says so.
+//! Up to Ipopt 3.13 its loader of HSL routines (`HSLLoader.h`) takes them from the program
+//! (`LSL_setMA57`) and looks for a shared library only while they are unset. Ipopt 3.14 only looks
+//! for the library, by the name in its option `hsllib`; that can be a file in memory, whose routines
+//! pass every call on. [`ma57_slot`] is either.
+//!
+//! The routines follow Fortran's conventions: every argument is a pointer, indices count from one.
+//! Array lengths are those of the MA57 documentation; where Ipopt (3.11 and 3.14 alike) reads a
+//! result, the comment says so.
 
-use std::ffi::{c_char, c_int};
+#[cfg(ipopt_hsl_loader)]
+mod loader;
+#[cfg(not(ipopt_hsl_loader))]
+#[cfg_attr(not(target_os = "linux"), path = "hsl/no_memory_library.rs")]
+mod memory_library;
+mod slot;
+
+#[cfg(ipopt_hsl_loader)]
+pub use loader::{HslLoader, hsl_loader};
+pub use slot::{Ma57Slot, SetMa57, SlotError, ma57_slot};
+
+use std::ffi::c_int;
 
 /// Fortran's `INTEGER`.
 pub type ipfint = c_int;
@@ -90,41 +106,3 @@ pub type ma57ed_t = Option<
         info: *mut ipfint,
     ),
 >;
-
-unsafe extern "C" {
-    /// Makes these the MA57 of this process.
-    pub fn LSL_setMA57(
-        ma57ad: ma57ad_t,
-        ma57bd: ma57bd_t,
-        ma57cd: ma57cd_t,
-        ma57ed: ma57ed_t,
-        ma57id: ma57id_t,
-    );
-
-    /// Loads the HSL shared library (null: its default name) and every routine found in it, which
-    /// replaces what was set before. Zero on success, else a message in `msgbuf`.
-    pub fn LSL_loadHSL(libname: *const c_char, msgbuf: *mut c_char, msglen: c_int) -> c_int;
-    /// Unloads it; every routine is then unset. Zero on success.
-    pub fn LSL_unloadHSL() -> c_int;
-    /// Nonzero when a shared library is loaded.
-    pub fn LSL_isHSLLoaded() -> c_int;
-    /// The name under which the shared library is looked for.
-    pub fn LSL_HSLLibraryName() -> *mut c_char;
-
-    /// Nonzero when all of MA27 is set.
-    pub fn LSL_isMA27available() -> c_int;
-    /// Nonzero when all of MA28 is set.
-    pub fn LSL_isMA28available() -> c_int;
-    /// Nonzero when all of MA57 is set.
-    pub fn LSL_isMA57available() -> c_int;
-    /// Nonzero when all of HSL_MA77 is set.
-    pub fn LSL_isMA77available() -> c_int;
-    /// Nonzero when all of HSL_MA86 is set.
-    pub fn LSL_isMA86available() -> c_int;
-    /// Nonzero when all of HSL_MA97 is set.
-    pub fn LSL_isMA97available() -> c_int;
-    /// Nonzero when MC19 is set.
-    pub fn LSL_isMC19available() -> c_int;
-    /// Nonzero when all of HSL_MC68 is set.
-    pub fn LSL_isMC68available() -> c_int;
-}

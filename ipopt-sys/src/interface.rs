@@ -1,5 +1,4 @@
-use crate::ApplicationReturnStatus;
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::{c_int, c_void};
 
 /// A floating-point number (`Number`).
 pub type Number = f64;
@@ -35,10 +34,10 @@ pub struct IpoptProblemInfo {
     _neither_send_nor_sync: std::marker::PhantomData<*mut u8>,
 }
 
-/// A problem made by [`CreateIpoptProblem`].
+/// A problem made by `CreateIpoptProblem`.
 pub type IpoptProblem = *mut IpoptProblemInfo;
 
-/// The pointer that [`IpoptSolve`] hands to every callback.
+/// The pointer that `IpoptSolve` hands to every callback.
 pub type UserDataPtr = *mut c_void;
 
 /// Objective at `x`, into `obj_value`. False: not defined here.
@@ -128,79 +127,3 @@ pub type Intermediate_CB = Option<
         user_data: UserDataPtr,
     ) -> Bool,
 >;
-
-unsafe extern "C" {
-    /// Makes a problem of `n ≥ 1` variables and `m ≥ 0` constraints; the bounds are copied. Null
-    /// when an argument is refused, among others `m > 0` with `nele_jac = 0`. Indices count from
-    /// zero with `index_style` 0, from one with 1. Pass all callbacks, also without constraints.
-    pub fn CreateIpoptProblem(
-        n: Index,
-        x_L: *mut Number,
-        x_U: *mut Number,
-        m: Index,
-        g_L: *mut Number,
-        g_U: *mut Number,
-        nele_jac: Index,
-        nele_hess: Index,
-        index_style: Index,
-        eval_f: Eval_F_CB,
-        eval_g: Eval_G_CB,
-        eval_grad_f: Eval_Grad_F_CB,
-        eval_jac_g: Eval_Jac_G_CB,
-        eval_h: Eval_H_CB,
-    ) -> IpoptProblem;
-
-    /// Frees a problem.
-    pub fn FreeIpoptProblem(ipopt_problem: IpoptProblem);
-
-    /// Sets a string option; false when its name or value is refused.
-    pub fn AddIpoptStrOption(
-        ipopt_problem: IpoptProblem,
-        keyword: *mut c_char,
-        val: *mut c_char,
-    ) -> Bool;
-
-    /// Sets a floating-point option; false when its name or value is refused.
-    pub fn AddIpoptNumOption(
-        ipopt_problem: IpoptProblem,
-        keyword: *mut c_char,
-        val: Number,
-    ) -> Bool;
-
-    /// Sets an integer option; false when its name or value is refused.
-    pub fn AddIpoptIntOption(ipopt_problem: IpoptProblem, keyword: *mut c_char, val: Int) -> Bool;
-
-    /// Sends the log, up to `print_level`, also to a file.
-    pub fn OpenIpoptOutputFile(
-        ipopt_problem: IpoptProblem,
-        file_name: *mut c_char,
-        print_level: Int,
-    ) -> Bool;
-
-    /// Scaling for `nlp_scaling_method = user-scaling`; a null array means no scaling.
-    pub fn SetIpoptProblemScaling(
-        ipopt_problem: IpoptProblem,
-        obj_scaling: Number,
-        x_scaling: *mut Number,
-        g_scaling: *mut Number,
-    ) -> Bool;
-
-    /// Sets, or with `None` unsets, the callback of each iteration.
-    pub fn SetIntermediateCallback(
-        ipopt_problem: IpoptProblem,
-        intermediate_cb: Intermediate_CB,
-    ) -> Bool;
-
-    /// Solves from `x` and, in a warm start, from the multipliers; all are overwritten with the
-    /// result. Every array but `x` may be null.
-    pub fn IpoptSolve(
-        ipopt_problem: IpoptProblem,
-        x: *mut Number,
-        g: *mut Number,
-        obj_val: *mut Number,
-        mult_g: *mut Number,
-        mult_x_L: *mut Number,
-        mult_x_U: *mut Number,
-        user_data: UserDataPtr,
-    ) -> ApplicationReturnStatus;
-}

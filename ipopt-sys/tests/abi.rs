@@ -2,7 +2,7 @@
 //! compares the values.
 
 use righting_ipopt_sys::{
-    AlgorithmMode, ApplicationReturnStatus as Status, Bool, FALSE, HAS_MA57_SLOT, Index, Int,
+    AlgorithmMode, ApplicationReturnStatus as Status, Bool, FALSE, HAS_HSL_LOADER, Index, Int,
     Number, TRUE,
 };
 use std::path::Path;
@@ -14,8 +14,8 @@ fn declarations_match_the_installed_headers() {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("abi_probe");
     let mut compile = Command::new(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));
     compile.arg(&source).arg("-o").arg(&program);
-    if !HAS_MA57_SLOT {
-        compile.arg("-DPROBE_BOOL");
+    if !HAS_HSL_LOADER {
+        compile.arg("-DIPOPT_3_14");
     }
     for directory in std::env::split_paths(env!("IPOPT_INCLUDE_PATH")) {
         compile.arg("-I").arg(directory);

@@ -1,7 +1,7 @@
 /* Restates what src/ declares, in C, and lets the compiler compare it with the installed headers.
  * What it prints is compared with the Rust constants by abi.rs. */
 #include <stdio.h>
-#if defined(PROBE_BOOL)
+#if defined(IPOPT_3_14)
 #include <stdbool.h>
 typedef bool expected_bool;
 #include "IpStdCInterface.h"
@@ -46,7 +46,13 @@ CHECK(SAME(__typeof__(&SetIntermediateCallback), Bool (*)(IpoptProblem, Intermed
 CHECK(SAME(__typeof__(&IpoptSolve),
            status_t (*)(IpoptProblem, reals, reals, reals, reals, reals, reals, void *)));
 
-#if !defined(PROBE_BOOL)
+#if defined(IPOPT_3_14)
+CHECK(SAME(__typeof__(&GetIpoptCurrentIterate),
+           Bool (*)(IpoptProblem, Bool, int, reals, reals, reals, int, reals, reals)));
+CHECK(SAME(__typeof__(&GetIpoptCurrentViolations),
+           Bool (*)(IpoptProblem, Bool, int, reals, reals, reals, reals, reals, int, reals,
+                    reals)));
+#else
 CHECK(SAME(ipfint, int));
 CHECK(SAME(ma57id_t, void (*)(reals, ints)));
 CHECK(SAME(ma57ad_t, void (*)(ints, ints, const int *, const int *, ints, ints, ints, ints, ints,

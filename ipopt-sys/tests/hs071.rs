@@ -183,9 +183,10 @@ fn hs071_reaches_the_published_solution() {
     let mut value = 0.0;
     let mut calls = Calls::default();
 
+    let ipopt = api().expect("Ipopt is installed");
     // SAFETY: every array has the length that the interface documents, and outlives the call.
     let status = unsafe {
-        let problem = CreateIpoptProblem(
+        let problem = (ipopt.CreateIpoptProblem)(
             N as Index,
             x_lower.as_mut_ptr(),
             x_upper.as_mut_ptr(),
@@ -203,16 +204,19 @@ fn hs071_reaches_the_published_solution() {
         );
         assert!(!problem.is_null());
         let set = |name: &std::ffi::CStr, value: &std::ffi::CStr| {
-            AddIpoptStrOption(problem, name.as_ptr().cast_mut(), value.as_ptr().cast_mut())
+            (ipopt.AddIpoptStrOption)(problem, name.as_ptr().cast_mut(), value.as_ptr().cast_mut())
         };
         assert_eq!(set(c"option_file_name", c""), TRUE);
         assert_eq!(set(c"sb", c"yes"), TRUE);
-        assert_eq!(AddIpoptIntOption(problem, c"print_level".as_ptr().cast_mut(), 0), TRUE);
-        assert_eq!(AddIpoptNumOption(problem, c"tol".as_ptr().cast_mut(), 1e-9), TRUE);
-        assert_eq!(AddIpoptNumOption(problem, c"no_such_option".as_ptr().cast_mut(), 1.0), FALSE);
-        assert_eq!(SetIpoptProblemScaling(problem, 1.0, null_mut(), null_mut()), TRUE);
-        assert_eq!(SetIntermediateCallback(problem, Some(iteration)), TRUE);
-        let status = IpoptSolve(
+        assert_eq!((ipopt.AddIpoptIntOption)(problem, c"print_level".as_ptr().cast_mut(), 0), TRUE);
+        assert_eq!((ipopt.AddIpoptNumOption)(problem, c"tol".as_ptr().cast_mut(), 1e-9), TRUE);
+        assert_eq!(
+            (ipopt.AddIpoptNumOption)(problem, c"no_such_option".as_ptr().cast_mut(), 1.0),
+            FALSE
+        );
+        assert_eq!((ipopt.SetIpoptProblemScaling)(problem, 1.0, null_mut(), null_mut()), TRUE);
+        assert_eq!((ipopt.SetIntermediateCallback)(problem, Some(iteration)), TRUE);
+        let status = (ipopt.IpoptSolve)(
             problem,
             x.as_mut_ptr(),
             g.as_mut_ptr(),
@@ -222,7 +226,7 @@ fn hs071_reaches_the_published_solution() {
             z_upper.as_mut_ptr(),
             (&raw mut calls).cast(),
         );
-        FreeIpoptProblem(problem);
+        (ipopt.FreeIpoptProblem)(problem);
         status
     };
 
@@ -244,16 +248,57 @@ fn hs071_reaches_the_published_solution() {
     close(&[last.1], &[value], 1e-9);
 }
 
-#[cfg(ipopt_ma57_slot)]
+unsafe extern "C" fn defaults(_: *mut f64, _: *mut hsl::ipfint) {}
+
+#[test]
+fn a_program_can_be_ma57() {
+    let slot = hsl::ma57_slot().expect("this Ipopt has one");
+    assert_eq!(slot.hsllib.is_none(), HAS_HSL_LOADER);
+    // SAFETY: no solve runs in this process with `ma57`, so the functions are never called; they
+    // are unset again.
+    unsafe {
+        (slot.set)(None, None, None, None, Some(defaults));
+        (slot.set)(None, None, None, None, None);
+    }
+    // It is the same at every call, and in every thread.
+    let again = std::thread::spawn(|| hsl::ma57_slot().unwrap()).join().unwrap();
+    assert!(std::ptr::eq(slot, again));
+}
+
+#[cfg(ipopt_hsl_loader)]
 #[test]
 fn ma57_is_available_only_with_all_five_functions() {
-    unsafe extern "C" fn defaults(_: *mut f64, _: *mut hsl::ipfint) {}
-    // SAFETY: no solve runs in this process with `ma57`, so the functions are never called; they
-    // are unset again before the test ends.
+    let loader = hsl::hsl_loader().expect("this Ipopt has one");
+    // SAFETY: as in the test above.
     unsafe {
-        assert_eq!(hsl::LSL_isMA57available(), 0);
-        hsl::LSL_setMA57(None, None, None, None, Some(defaults));
-        assert_eq!(hsl::LSL_isMA57available(), 0);
-        hsl::LSL_setMA57(None, None, None, None, None);
+        (loader.LSL_setMA57)(None, None, None, None, Some(defaults));
+        assert_eq!((loader.LSL_isMA57available)(), 0);
+        (loader.LSL_setMA57)(None, None, None, None, None);
     }
+}
+
+#[cfg(not(ipopt_hsl_loader))]
+#[test]
+fn the_library_in_memory_passes_every_call_on() {
+    use std::ffi::c_int;
+    type Defaults = unsafe extern "C" fn(*mut f64, *mut c_int);
+    unsafe extern "C" fn mark(cntl: *mut f64, icntl: *mut hsl::ipfint) {
+        // SAFETY: the test passes one of each.
+        unsafe { (*cntl, *icntl) = (0.5, 7) };
+    }
+    let slot = hsl::ma57_slot().expect("this Ipopt has one");
+    let name = slot.hsllib.as_ref().expect("a name for Ipopt's option");
+    // SAFETY: the file is the library that the slot has open already, and its routine has the type
+    // of the one that it passes the call on to.
+    let (cntl, icntl) = unsafe {
+        // As Ipopt opens it.
+        let library = libloading::Library::new(name).expect("it opens again");
+        let routine = library.get::<Defaults>("ma57id_").expect("Fortran's name of MA57ID");
+        (slot.set)(None, None, None, None, Some(mark));
+        let (mut cntl, mut icntl) = (0.0, 0);
+        routine(&raw mut cntl, &raw mut icntl);
+        (slot.set)(None, None, None, None, None);
+        (cntl, icntl)
+    };
+    assert_eq!((cntl, icntl), (0.5, 7));
 }

@@ -7,25 +7,25 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use righting_maneuver::power::PAPER_EFFICIENCY;
-use righting_maneuver::sparsity::kkt_sparsity;
-use righting_maneuver::verifier::SOLUTION_FILE;
-use righting_maneuver::{
-    Error, Histories, PlanError, PowerProfile, Scenario, Solution, Trajectory, Verified,
-    WheelArray, verify_directory,
-};
+use righting_analysis::power::PAPER_EFFICIENCY;
+use righting_analysis::{Histories, PowerProfile};
+use righting_planner::PlanError;
+use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
     FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
     momentum_svg, power_svg, sparsity_svg,
 };
+use righting_results::{SOLUTION_FILE, Solution, Trajectory};
+use righting_scenario::{Error, Scenario, WheelArray};
+use righting_verifier::Verified;
 
 pub use self::formats::Formats;
 use crate::failure::Failure;
-use crate::output;
 use crate::output_folder::{
     ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
     POWER_FIGURE_FILE, SPARSITY_FILE,
 };
+use crate::{output, plan_folder};
 
 /// Intervals whose part of the KKT matrix is drawn.
 const SPARSITY_STEPS: usize = 4;
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !folder.join(SOLUTION_FILE).exists() && folder.join(paper::FIRST_SCENARIO).exists() {
         return paper::run(folder, out.as_deref().unwrap_or(Path::new("out/paper")), &writer);
     }
-    let Verified { solution, scenario, trajectory } = verify_directory(folder)?;
+    let Verified { solution, scenario, trajectory } = plan_folder::read(folder)?;
     let folder = OutputFolder::open(out.as_ref().unwrap_or(folder))?;
     folder.remove_earlier_figures()?;
     let files = draw(folder.path(), FigureSet::All, &writer, &scenario, &solution, &trajectory)?;

@@ -1,17 +1,18 @@
 //! Every figure and table of the paper that has numbers in it, from the scenarios in one folder.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use righting_maneuver::envelope::sampled_maxima;
-use righting_maneuver::power::{Accounting, Consumption, PAPER_EFFICIENCY};
-use righting_maneuver::{
-    Error, PowerProfile, Scenario, Solution, Status, Trajectory, WheelArray, envelopes, plan,
-};
+use righting_analysis::envelope::sampled_maxima;
+use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
+use righting_analysis::{PowerProfile, envelopes};
 use righting_ocp::Control;
+use righting_planner::Planner;
 use righting_report::{
     FigureWriter, PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg,
 };
+use righting_results::{Solution, Status, Trajectory};
+use righting_scenario::{Error, Scenario, WheelArray};
 
 use super::FigureSet;
 use super::tables::{self, Comparison};
@@ -19,7 +20,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output_folder::OutputFolder;
 use crate::solve::Shown;
-use crate::{envelope, output, solve};
+use crate::{build, envelope, output, solve};
 
 /// A file that marks a folder as one of the paper's scenarios.
 pub const FIRST_SCENARIO: &str = "slew_2dof.json";
@@ -145,15 +146,14 @@ pub fn run(scenarios: &Path, out: &Path, writer: &FigureWriter) -> Result<(), Fa
 /// A scenario planned and verified, or why not.
 fn planned(scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure> {
     output::complain(scenario.name());
-    let plan = plan(&scenario, &mut |_| {
-        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
-    })?;
-    let solution = solve::checked(&scenario, &plan, Duration::ZERO);
+    let mut planner = Planner::new().program(build::VERSION);
+    let righting_planner::Planned { solution, trajectory } =
+        planner.plan(&scenario, &mut |_| {
+            if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+        })?;
     match solution.status {
         Status::Interrupted => Err(Failure::Interrupted),
-        status if status.is_acceptable() => {
-            Ok(Planned { scenario, solution, trajectory: plan.trajectory })
-        }
+        status if status.is_acceptable() => Ok(Planned { scenario, solution, trajectory }),
         status => Err(Failure::NoPlan { status }),
     }
 }

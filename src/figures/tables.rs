@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use righting_maneuver::file::{System, SystemReference};
-use righting_maneuver::power::{Accounting, PAPER_EFFICIENCY};
-use righting_maneuver::{Envelopes, PowerProfile};
+use righting_analysis::power::{Accounting, PAPER_EFFICIENCY};
+use righting_analysis::{Envelopes, PowerProfile};
 use righting_report::PowerTrade;
+use righting_scenario::file::{System, SystemReference};
 
 use super::paper::{Planned, SYSTEMS};
 
@@ -58,7 +58,7 @@ fn write_rows(text: &mut String, name: &str, system: &System) {
             link.alpha_deg.to_string(),
             link.d_m.to_string(),
             link.theta_deg.to_string(),
-            format!("{} … {}", bound(link.angle_min_deg, "−∞"), bound(link.angle_max_deg, "+∞")),
+            format!("{} … {}", bound(link.angle_min_deg, "-∞"), bound(link.angle_max_deg, "+∞")),
             link.rate_max_deg_s.to_string(),
             link.acceleration_max_deg_s2.to_string(),
         ];

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_maneuver::files;
-use righting_report::{errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_report::{open_loop_errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_scenario::file_io;
 use righting_sweep::{CaseStatus, Slews, Summary, SweepFolder, Table};
 
 use super::show;
@@ -24,7 +24,7 @@ pub struct Arguments {
 
 /// Merges.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    merge(&SweepFolder::at(&arguments.folder), arguments.json)
+    merge(&super::planned(&arguments.folder)?, arguments.json)
 }
 
 /// Writes the results of the records that there are, and prints their summary.
@@ -35,7 +35,7 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
     let mut write = |name: &str, print: &dyn Fn(&mut (dyn Write + Send)) -> io::Result<()>| {
         let path = folder.path().join(name);
-        files::replace(&path, print)?;
+        file_io::replace(&path, print)?;
         files.push(path);
         Ok::<(), Failure>(())
     };
@@ -63,7 +63,7 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     // The error is the sine of half the angle.
     let errors_deg: Vec<f64> =
         flown.map(|row| 2.0 * row.attitude_error.asin().to_degrees()).collect();
-    if let Some(figure) = errors_svg(&summary.sweep, &errors_deg) {
+    if let Some(figure) = open_loop_errors_svg(&summary.sweep, &errors_deg) {
         write("errors.svg", &|writer| writer.write_all(figure.as_bytes()))?;
     }
     show::print(&summary, &files, json)

@@ -9,14 +9,16 @@ mod slurm;
 
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use righting_sweep::{Shard, SweepError, SweepFolder, worker};
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::optimizer;
 use crate::output_folder::OutputFolder;
+use crate::plan_folder;
 
 /// Plan and verify every case of a sweep file.
 ///
@@ -85,6 +87,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// A folder that should be one of a planned sweep.
+fn planned(folder: &Path) -> Result<SweepFolder, Failure> {
+    plan_folder::refuse_file(folder, "the folder of a sweep")?;
+    Ok(SweepFolder::at(folder))
+}
+
 fn run_whole(whole: &Whole) -> Result<(), Failure> {
     let sweep = plan::read(&whole.file)?;
     let folder = SweepFolder::at(OutputFolder::open(&whole.out)?.path());
@@ -103,6 +111,7 @@ fn run_whole(whole: &Whole) -> Result<(), Failure> {
 pub fn work() -> Result<(), Failure> {
     // A terminal's Ctrl-C reaches every process; it is the parent that ends its workers.
     let _first_is_not_for_us = Interrupt::watch();
+    optimizer::load()?;
     worker::serve().map_err(|error| match error.kind() {
         io::ErrorKind::BrokenPipe => Failure::Interrupted,
         _ => Failure::Stdout(error),

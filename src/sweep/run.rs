@@ -35,7 +35,7 @@ pub struct Arguments {
 
 /// Runs the shard.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let folder = SweepFolder::at(&arguments.folder);
+    let folder = super::planned(&arguments.folder)?;
     let sweep = folder.sweep()?;
     run_shard(&folder, &sweep, arguments.shard, arguments.jobs)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use righting_report::short;
-use righting_sweep::{Slews, Spread, Summary, SweepFolder, Table};
+use righting_sweep::{Slews, Spread, Summary, Table};
 
 use crate::failure::Failure;
 use crate::output;
@@ -22,7 +22,7 @@ pub struct Arguments {
 
 /// Reads and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let table = Table::read(&SweepFolder::at(&arguments.folder))?;
+    let table = Table::read(&super::planned(&arguments.folder)?)?;
     let slews = Slews::of(&table, 0);
     print(&Summary::of(&table, slews.as_ref()), &[], arguments.json)
 }

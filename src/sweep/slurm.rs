@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_maneuver::files;
-use righting_sweep::{Sweep, SweepError, SweepFolder};
+use righting_scenario::file_io;
+use righting_sweep::{Sweep, SweepError};
 
 use crate::failure::Failure;
 use crate::output;
@@ -42,7 +42,7 @@ pub struct Arguments {
 
 /// Writes the script and says how to submit it.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let sweep = SweepFolder::at(&arguments.folder).sweep()?;
+    let sweep = super::planned(&arguments.folder)?.sweep()?;
     let absolute = |path: &Path| {
         std::fs::canonicalize(path)
             .map_err(|source| SweepError::Read { path: path.to_owned(), source })
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     std::fs::create_dir_all(&logs).map_err(|source| SweepError::Write { path: logs, source })?;
     let script = folder.join(SCRIPT);
     let text = script_of(arguments, &sweep, &program, &folder);
-    files::replace(&script, |writer| writer.write_all(text.as_bytes()))?;
+    file_io::replace(&script, |writer| writer.write_all(text.as_bytes()))?;
     let (script, program) = (quoted(&script), quoted(&program));
     let folder = quoted(&folder);
     output::print(&format!(
@@ -120,6 +120,6 @@ fn word(text: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || "._-:,".contains(c);
     match !text.is_empty() && text.chars().all(plain) {
         true => Ok(text.to_owned()),
-        false => Err("letters, digits and . _ - : , only".to_owned()),
+        false => Err("expected letters, digits and . _ - : , only".to_owned()),
     }
 }

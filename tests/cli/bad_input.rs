@@ -2,51 +2,175 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{folder_with, righting, small_slew, solve};
+use crate::program::{Run, folder_with, righting, small_slew, solve};
 
-/// Refused before anything is written.
-fn assert_refused(scenario: &Value, part: &str) {
+/// Refused for a field before anything is written, with exactly this message about it.
+fn assert_refused(scenario: &Value, message: &str) {
     let folder = folder_with(scenario);
     let run = solve(folder.path());
-    run.assert_refused(part);
+    assert_says(&run, &format!("scenario.json: {message}"));
     assert_eq!(run.stdout, "");
     assert!(!folder.path().join("out").exists());
 }
 
+fn assert_says(run: &Run, message: &str) {
+    let hint = "  hint: `righting schema` prints the format with every field\n";
+    assert_eq!((run.code, run.stderr.as_str()), (2, &*format!("error: {message}\n{hint}")));
+}
+
 #[test]
-fn the_message_names_the_field_and_what_is_allowed() {
+fn the_message_names_the_field_and_what_is_expected() {
     let wrong = |path: &str, value: Value| {
         let mut scenario = small_slew();
         *scenario.pointer_mut(path).expect("a field of the scenario") = value;
         scenario
     };
-    for (path, value, part) in [
-        ("/horizon/steps", json!(0), "horizon.steps: 0 is not allowed"),
-        ("/horizon/steps", json!(1e9), "horizon.steps: "),
-        ("/horizon/steps", json!(2.5), "horizon.steps: 2.5 is not allowed"),
-        ("/horizon/duration_s", json!(-1), "horizon.duration_s: -1 is not allowed"),
-        ("/horizon/duration_s", json!("long"), "horizon.duration_s: "),
-        ("/maneuver/axis", json!([0, 0, 0]), "maneuver.axis: "),
-        ("/maneuver/angle_deg", json!(1e308), "maneuver.angle_deg: "),
-        ("/maneuver/type", json!("spin"), "maneuver.type: "),
-        ("/system/base/mass_kg", json!(-300), "system.base.mass_kg: -300 is not allowed"),
-        ("/system/links", json!([]), "system.links: "),
-        ("/system/links/1/mass_kg", json!(null), "system.links[1].mass_kg: "),
-        ("/system/links/1/angle_max_deg", json!(-91), "system.links[1].angle_m"),
-        ("/initial/joint_angles_deg", json!([0, 120]), "initial.joint_angles_deg[1]: "),
-        ("/initial/joint_angles_deg", json!([0]), "initial.joint_angles_deg"),
-        ("/system", json!("absent.json"), "absent.json: cannot be read: no such file"),
-        ("/system", json!("."), "is a directory"),
+    for (path, value, message) in [
+        (
+            "/horizon/steps",
+            json!(0),
+            "horizon.steps: found 0, expected a whole number from 1 to 100000",
+        ),
+        (
+            "/horizon/steps",
+            json!(1e9),
+            "horizon.steps: found 1e9, expected a whole number from 1 to 100000",
+        ),
+        (
+            "/horizon/steps",
+            json!(2.5),
+            "horizon.steps: found 2.5, expected a whole number from 1 to 100000",
+        ),
+        (
+            "/horizon/duration_s",
+            json!(-1),
+            "horizon.duration_s: found -1, expected a number above 0 and up to 1000000",
+        ),
+        (
+            "/horizon/duration_s",
+            json!("long"),
+            "horizon.duration_s: found \"long\", expected a number",
+        ),
+        (
+            "/horizon",
+            json!([20, 40]),
+            "horizon: found [20,40], expected an object with `duration_s` and `steps`",
+        ),
+        (
+            "/maneuver/axis",
+            json!([0, 0, 0]),
+            "maneuver.axis: found [0, 0, 0], expected a vector that is not zero",
+        ),
+        ("/maneuver/axis", json!([1, 0]), "maneuver.axis: found [1,0], expected an array of 3"),
+        (
+            "/maneuver/angle_deg",
+            json!(1e308),
+            "maneuver.angle_deg: found 1e308, expected a number from -180 to 180",
+        ),
+        (
+            "/maneuver/type",
+            json!("spin"),
+            "maneuver.type: found \"spin\", expected \"slew\" or \"detumble\"",
+        ),
+        (
+            "/system/base/mass_kg",
+            json!(-300),
+            "system.base.mass_kg: found -300, expected a number above 0 and up to 1e9",
+        ),
+        (
+            "/system/links",
+            json!([]),
+            "system.links: found 0 links, expected an array of 1 to 32 links",
+        ),
+        (
+            "/system/links/1/mass_kg",
+            json!(null),
+            "system.links[1].mass_kg: found null, expected a number",
+        ),
+        (
+            "/system/links/1/angle_max_deg",
+            json!(-91),
+            "system.links[1].angle_min_deg: found -90, expected less than angle_max_deg, -91",
+        ),
+        (
+            "/initial/joint_angles_deg",
+            json!([0, 120]),
+            "initial.joint_angles_deg[1]: found 120, expected -90 to 90, the limits of joint 2",
+        ),
+        (
+            "/initial/joint_angles_deg",
+            json!([0]),
+            "initial.joint_angles_deg: found an array of 1, expected an array of 2, one a joint",
+        ),
+        (
+            "/system",
+            json!("absent.json"),
+            "system: found \"absent.json\", expected the path of a system file (absent.json: cannot be read: no such file)",
+        ),
+        (
+            "/system",
+            json!("."),
+            "system: found \".\", expected the path of a system file (.: found a directory, expected a system file)",
+        ),
     ] {
-        assert_refused(&wrong(path, value), part);
+        assert_refused(&wrong(path, value), message);
     }
+}
+
+#[test]
+fn settings_of_the_solver_are_met_with_what_there_is() {
+    for (field, value, message) in [
+        (
+            "formulation",
+            json!("Full"),
+            "found \"Full\", expected \"full\" or \"reduced\"; did you mean \"full\"?",
+        ),
+        (
+            "linear_solver",
+            json!("ma57"),
+            "found \"ma57\", expected \"auto\", \"mumps\" or \"stage\"",
+        ),
+        ("guess", json!("random"), "found \"random\", expected \"constant\" or \"auto\""),
+        ("guess", json!(4), "found 4, expected \"constant\", \"auto\" or an object with `starts`"),
+        ("max_iterations", json!(0), "found 0, expected a whole number from 1 to 1000000"),
+        ("tolerance", json!(1), "found 1, expected a number from 1e-14 to 0.01"),
+    ] {
+        let mut scenario = small_slew();
+        scenario["solver"] = json!({ field: value });
+        assert_refused(&scenario, &format!("solver.{field}: {message}"));
+    }
+}
+
+#[test]
+fn what_is_missing_unknown_or_twice_is_named() {
+    let without = |pointer: &str, field: &str| {
+        let mut scenario = small_slew();
+        let object = scenario.pointer_mut(pointer).expect("an object");
+        object.as_object_mut().expect("an object").remove(field).expect("the field");
+        scenario
+    };
+    assert_refused(&without("/horizon", "steps"), "horizon.steps: missing: it has no default");
+    let message = "maneuver.axis: missing, expected the axis of the slew";
+    assert_refused(&without("/maneuver", "axis"), message);
+    let message = "system.base.cube_side_m: missing, expected the side of a cube, or inertia_kg_m2 \
+                   with keep_out_radius_m";
+    assert_refused(&without("/system/base", "cube_side_m"), message);
+    let mut scenario = small_slew();
+    scenario["horizon"]["qqq"] = json!(3);
+    let message = "horizon.qqq: unknown field, expected one of duration_s, steps";
+    assert_refused(&scenario, message);
+
+    let folder = folder_with(&json!({}));
+    let text = small_slew().to_string().replacen('{', "{\"name\": \"first\", ", 1);
+    std::fs::write(folder.path().join("scenario.json"), text).expect("writable");
+    assert_says(&solve(folder.path()), "scenario.json: name: duplicate field, expected once");
 }
 
 #[test]
 fn a_misspelt_field_is_met_with_the_right_one() {
     let mut scenario = small_slew();
     scenario["horizon"]["durations_s"] = json!(3);
-    assert_refused(&scenario, "did you mean `duration_s`?");
+    assert_refused(&scenario, "horizon.durations_s: unknown field: did you mean `duration_s`?");
 }
 
 #[test]
@@ -62,7 +186,8 @@ fn what_is_not_a_scenario_is_refused() {
     std::fs::remove_file(&path).expect("there");
     solve(folder.path()).assert_refused("scenario.json: cannot be read: no such file");
     std::fs::create_dir(&path).expect("room");
-    solve(folder.path()).assert_refused("scenario.json: is a directory");
+    solve(folder.path())
+        .assert_refused("scenario.json: found a directory, expected a scenario file");
 }
 
 #[test]

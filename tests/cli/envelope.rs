@@ -67,13 +67,17 @@ fn wheels_come_from_a_file_that_is_checked() {
     let found = run(json!({ "wheels": [wheel] })).json();
     assert_eq!(found["wheels"]["momentum_max_n_m_s"], 3.0);
     assert_eq!(found["wheels"]["momentum_min_n_m_s"], 0.0);
-    run(json!({ "wheels": [] })).assert_refused("wheels: 0 wheels is not allowed");
+    run(json!({ "wheels": [] }))
+        .assert_refused("wheels: found 0 wheels, expected an array of 1 to 16 wheels");
     let mut still = wheel.clone();
     still["axis"] = json!([0, 0, 0]);
-    run(json!({ "wheels": [still] })).assert_refused("wheels[0].axis");
+    run(json!({ "wheels": [still] }))
+        .assert_refused("wheels[0].axis: found [0, 0, 0], expected a vector that is not zero\n");
     let mut weak = wheel.clone();
     weak["torque_max_n_m"] = json!(-1);
-    run(json!({ "wheels": [wheel, weak] })).assert_refused("wheels[1].torque_max_n_m");
+    run(json!({ "wheels": [wheel, weak] })).assert_refused(
+        "wheels[1].torque_max_n_m: found -1, expected a number above 0 and up to 1000000\n",
+    );
 }
 
 #[test]

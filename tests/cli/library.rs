@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{Run, folder_with, righting, small_detumble, small_slew};
+use crate::program::{Run, files_in, folder_with, righting, small_detumble, small_slew};
 
 fn solve(folder: &std::path::Path, scenario: &Value, more: &[&str]) -> Run {
     std::fs::write(folder.join("scenario.json"), scenario.to_string()).expect("writable");
@@ -23,10 +23,10 @@ fn notes(run: &Run) -> String {
 fn the_nearest_maneuver_is_a_start_and_the_rest_is_named() {
     let folder = folder_with(&json!({}));
     let at = folder.path();
-    std::fs::create_dir(at.join("library")).expect("writable");
     let library = ["--library", "library"];
-    // Each plan joins the library by its folder; the first one finds it empty.
-    for (angle_deg, note) in [(2.0, "holds no maneuver"), (4.0, "maneuver 2_deg was a start too")] {
+    // Each plan joins the library by its folder; the first one finds none and makes it.
+    let empty = "library library is empty: a plan joins it by --out library/NAME";
+    for (angle_deg, note) in [(2.0, empty), (4.0, "maneuver 2_deg was a start too")] {
         let out = format!("library/{angle_deg}_deg");
         let run = solve(at, &turned_by(angle_deg), &[&library[..], &["--out", &out]].concat());
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
@@ -60,8 +60,14 @@ fn the_nearest_maneuver_is_a_start_and_the_rest_is_named() {
 fn a_library_is_a_folder_and_the_only_source() {
     let folder = folder_with(&json!({}));
     let run = |more: &[&str]| solve(folder.path(), &small_slew(), more);
-    run(&["--out", "out", "--library", "absent"]).assert_refused("absent: cannot be read");
+    std::fs::write(folder.path().join("taken"), "").expect("writable");
+    let refused = run(&["--out", "out", "--library", "taken/below"]);
+    refused.assert_refused("taken/below: cannot be written: not a directory");
     assert!(!folder.path().join("out").exists());
+    // One that is outside the plans is made too, and stays empty.
+    let made = run(&["--out", "out", "--library", "deep/er"]);
+    assert!(notes(&made).contains("library deep/er is empty"), "{}", notes(&made));
+    assert_eq!(files_in(&folder.path().join("deep/er")), [""; 0]);
     let both = run(&["--out", "out", "--library", ".", "--warm-start", "."]);
     assert_eq!(both.code, 2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);

@@ -3,15 +3,19 @@
 mod bad_input;
 #[cfg(unix)]
 mod browser;
+#[cfg(target_os = "linux")]
+mod color;
+mod completions;
+mod crates;
 mod documents;
 mod envelope;
 mod export;
 mod figures;
 mod full_disk;
-#[path = "../../crates/maneuver/tests/support/json_schema.rs"]
-mod json_schema;
+mod kinds;
 mod library;
 mod machine;
+mod manpages;
 #[cfg(unix)]
 mod page;
 mod power;
@@ -19,8 +23,10 @@ mod program;
 mod reach;
 mod scenarios;
 mod solve;
+mod standard_input;
 mod streams;
 mod sweep;
 mod sweep_faults;
 mod usage;
 mod verify;
+mod warm_start;

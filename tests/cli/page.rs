@@ -1,6 +1,8 @@
 //! The interactive page, in a browser.
 
-use righting_maneuver::{Node, Scenario, verify_directory};
+use righting_results::Node;
+use righting_scenario::Scenario;
+use righting_verifier::verify_directory;
 use serde_json::{Value, json};
 
 use crate::browser::Browser;

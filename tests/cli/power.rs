@@ -83,7 +83,7 @@ fn what_is_no_plan_is_refused() {
     let fewer: Vec<&str> = text.lines().collect();
     let joined = [&fewer[..20], &fewer[41..]].concat().join("\n");
     std::fs::write(&table, joined).expect("writable");
-    power().assert_refused("steps: 19 is not allowed: 40");
+    power().assert_refused("steps: found 19, expected 40");
     // One that can be drawn but does not hold is drawn, and said not to hold.
     let changed = text.replacen("0.0000000000000000e0,", "1.0000000000000000e-2,", 2);
     std::fs::write(&table, changed).expect("writable");

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::json_schema::violation;
 use crate::program::{Run, files_in, folder_with, righting, small_detumble, small_slew};
+use righting_test_support::json_schema::violation;
 
 fn reach(folder: &std::path::Path, more: &[&str]) -> Run {
     righting(folder, &[&["reach", "scenario.json"], more].concat())
@@ -81,11 +81,11 @@ fn what_nothing_makes_possible_is_said() {
 fn options_are_checked() {
     let folder = folder_with(&small_slew());
     for (arguments, part) in [
-        (&["--resolution", "0"][..], "from 0.01 to 50"),
-        (&["--within", "nan"], "from 0 to 1000"),
+        (&["--resolution", "0"][..], ": expected a number from 0.01 to 50\n"),
+        (&["--within", "nan"], ": expected a number from 0 to 1000\n"),
         (&["--starts", "1001"], "0..=1000"),
         (&["--what", "mass"], "duration, angle"),
-        (&["--control-weight", "-1"], "weights.control: -1 is not allowed"),
+        (&["--control-weight", "-1"], "weights.control: found -1, expected a number from 0"),
     ] {
         let run = reach(folder.path(), arguments);
         assert_eq!(run.code, 2, "{arguments:?}");

@@ -118,3 +118,20 @@ fn results_are_readable_by_whom_the_user_lets_read() {
         }
     }
 }
+
+#[test]
+fn what_is_printed_can_be_pasted_into_a_program() {
+    let folder = folder_with(&small_detumble());
+    let run = solve(folder.path());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("detumble from [0, 0, -5] \u{b0}/s"), "{}", run.stdout);
+    for command in ["verify", "power"] {
+        let again = righting(folder.path(), &[command, "out"]);
+        assert!(again.stdout.contains("[0, 0, -5]"), "{}", again.stdout);
+        assert!(!again.stdout.contains('\u{2212}'), "{}", again.stdout);
+    }
+    assert!(!run.stdout.contains('\u{2212}'), "{}", run.stdout);
+    // A figure is looked at: there the minus is as wide as the plus.
+    let figure = std::fs::read_to_string(folder.path().join("out/joints.svg")).expect("readable");
+    assert!(figure.contains("detumble from [0, 0, \u{2212}5]"), "{figure}");
+}

@@ -6,24 +6,14 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use rustix::process::{Pid, Signal, kill_process};
 
 use crate::program::{command, files_in, righting};
 use crate::sweep::{folder_with_sweep, results, small_sweep, sweep};
 
 const KILLS: usize = 20;
-
-/// Numbers that are the same every time (Marsaglia's xorshift).
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % count as u64) as usize
-    }
-}
 
 fn records(folder: &Path) -> usize {
     let text = std::fs::read(folder.join("out/records/1-of-1.jsonl")).unwrap_or_default();
@@ -72,7 +62,7 @@ fn twenty_kills_of_workers_and_parents_change_nothing() {
     let expected = results(folder.path(), "undisturbed");
     assert_eq!(expected.len(), 1 + 100);
 
-    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut kills = 0;
     let mut folder = folder_with_sweep(&sweep_file);
     while kills < KILLS {
@@ -84,15 +74,15 @@ fn twenty_kills_of_workers_and_parents_change_nothing() {
             .expect("the program starts");
         // One worker, then the parent: a case that loses two workers in one run has failed.
         let before = records(folder.path());
-        if wait_for(before + dice.below(4), folder.path(), &mut parent) {
+        if wait_for(before + random.random_range(0..4), folder.path(), &mut parent) {
             let workers = workers(&parent);
             if !workers.is_empty() {
-                kill(workers[dice.below(workers.len())]);
+                kill(workers[random.random_range(0..workers.len())]);
                 kills += 1;
             }
         }
         let before = records(folder.path());
-        let finished = !wait_for(before + dice.below(4), folder.path(), &mut parent);
+        let finished = !wait_for(before + random.random_range(0..4), folder.path(), &mut parent);
         if !finished {
             kill(parent.id() as i32);
             kills += 1;

@@ -92,17 +92,44 @@ fn what_is_not_a_plan_is_refused() {
     std::fs::rename(out.join("trajectory.csv"), out.join("kept")).expect("movable");
     righting(folder.path(), &["verify", "out"]).assert_refused("trajectory.csv: cannot be read");
     std::fs::create_dir(out.join("trajectory.csv")).expect("room");
-    righting(folder.path(), &["verify", "out"]).assert_refused("is a directory");
+    righting(folder.path(), &["verify", "out"])
+        .assert_refused("out/trajectory.csv: found a directory, expected a trajectory table");
     std::fs::remove_dir(out.join("trajectory.csv")).expect("empty");
-    for broken in ["", "t_s\n", "\u{0}\u{1}", "1,2,3\n4,5,6\n"] {
+    let table = std::fs::read_to_string(out.join("kept")).expect("readable");
+    let head = table.lines().next().expect("a header");
+    let columns = "expected 14 columns, 4 for each joint and power_w";
+    for (broken, message) in [
+        ("", "line 1: found an empty file, expected a header and rows"),
+        ("t_s\n", &*format!("line 1: found 1 columns, {columns}")),
+        ("1,2,3\n4,5,6\n", &format!("line 1: found 3 columns, {columns}")),
+        (head, "line 1: found 0 rows, expected at least 2"),
+        (&table.replace("qw,qx", "qx,qw"), "line 1: found column `qx`, expected `qw`"),
+        (&format!("{head}\n1,2\n3,4\n"), "line 2: found 2 cells, expected 23"),
+        (
+            &table.replacen("\n0.0000000000000000e0", "\nsoon", 1),
+            "line 2, column t_s: found `soon`, expected a finite number",
+        ),
+    ] {
         std::fs::write(out.join("trajectory.csv"), broken).expect("writable");
-        righting(folder.path(), &["verify", "out"]).assert_refused("trajectory.csv");
+        let run = righting(folder.path(), &["verify", "out"]);
+        let message = format!("error: out/trajectory.csv: {message}\n");
+        assert_eq!((run.code, run.stderr), (2, message));
     }
     std::fs::rename(out.join("kept"), out.join("trajectory.csv")).expect("movable");
     assert_eq!(righting(folder.path(), &["verify", "out"]).code, 0);
 
-    for broken in ["", "{}", "[]", "{\"schema\": \"righting.solution/1\"}", "{\"schema\": 7}"] {
+    let whole = std::fs::read_to_string(out.join("solution.json")).expect("readable");
+    let later = whole.replace("righting.solution/1", "righting.solution/2");
+    for (broken, message) in [
+        ("", "line 1, column 0: not JSON: EOF while parsing a value"),
+        ("{}", "schema: missing: it has no default"),
+        ("[]", "found [], expected an object"),
+        ("{\"schema\": 7}", "schema: found 7, expected a string"),
+        (&later, "schema: found \"righting.solution/2\", expected \"righting.solution/1\""),
+    ] {
         std::fs::write(out.join("solution.json"), broken).expect("writable");
-        righting(folder.path(), &["verify", "out"]).assert_refused("solution.json");
+        let run = righting(folder.path(), &["verify", "out"]);
+        let line = run.stderr.lines().next().unwrap_or_default();
+        assert_eq!((run.code, line), (2, &*format!("error: out/solution.json: {message}")));
     }
 }

@@ -1,32 +1,31 @@
-//! Ipopt's line-search interior-point method (Wächter & Biegler, *Mathematical Programming* 106,
-//! 2006) for programs so small, or solved so often, that Ipopt's own bookkeeping would cost more
-//! than evaluating and factorising them: of a program with 200 variables three quarters of its time.
+//! A line-search interior-point method for nonlinear programs that are so small, or solved so often,
+//! that Ipopt's own bookkeeping would cost more than evaluating and factorising them: of a program
+//! with 200 variables three quarters of its time.
 //!
 //! With w = (x, s), a slack for each inequality, and δ_i(w) the distances to the bounds, it solves
 //!
 //! ```text
-//! min  f(x) − μ Σ ln δ_i(w)   s.t.   c(w) = 0
+//! min  φ_μ(w) = f(x) − μ Σ ln δ_i(w)   s.t.   c(w) = 0
 //! ```
 //!
-//! for μ → 0, by steps of
+//! for μ → 0, along the search directions of
 //!
 //! ```text
-//! ⎡ W + Σ + κI   Jᵀ ⎤ ⎡ dw ⎤      ⎡ ∇f − Σ μ ∇δ_i / δ_i + Jᵀ y ⎤
-//! ⎣ J           −ηI ⎦ ⎣ dy ⎦  = − ⎣ c                          ⎦,      Σ = Σ z_i / δ_i,
+//! ⎡ W + Σ + δ_w I   Jᵀ     ⎤ ⎡ d_w ⎤      ⎡ ∇φ_μ + Jᵀ y ⎤
+//! ⎣ J              −δ_c I  ⎦ ⎣ d_y ⎦  = − ⎣ c            ⎦,      Σ = Σ z_i / δ_i,
 //! ```
 //!
-//! κ and η as small as the inertia allows, shortened until they are acceptable to a filter.
+//! δ_w and δ_c as small as the inertia allows, shortened until a filter accepts the trial point.
 //!
-//! It takes [problems](righting_ipopt::Problem), [options](righting_ipopt::Options) and [linear
-//! solvers](righting_ipopt::LinearSolver) of `righting_ipopt` and goes the way that Ipopt goes with
-//! `fast_step_computation`, iterate by iterate up to rounding: monotone barrier parameter, filter,
-//! second-order corrections, watchdog, regularisation. It has no restoration phase. Where Ipopt would
-//! enter one, and wherever else it does not know how to go on, it [gives up](GivesUp), for Ipopt to
-//! solve the problem instead.
+//! It takes the problems, options and linear solvers of `righting_nlp` and goes the way that Ipopt
+//! goes with `fast_step_computation`, iterate by iterate up to rounding, which the tests hold
+//! against Ipopt itself. It has no restoration phase. Where one would begin, and wherever else it
+//! does not know how to go on, it ends with an [`InteriorError`], for Ipopt to solve the problem
+//! instead.
 //!
 //! ```
 //! use righting_interior::solve;
-//! use righting_ipopt::*;
+//! use righting_nlp::*;
 //!
 //! /// min Σ exp(x_i) − a_i x_i,  x_i ≥ 0
 //! struct Separable([f64; 2]);
@@ -38,9 +37,6 @@
 //!     fn bounds(&self, bounds: &mut Bounds) {
 //!         bounds.x_lower.fill(0.0);
 //!     }
-//!     fn jacobian_structure(&self) -> TripletStructure {
-//!         TripletStructure::default()
-//!     }
 //!     fn hessian_structure(&self) -> TripletStructure {
 //!         TripletStructure { rows: vec![0, 1], columns: vec![0, 1] }
 //!     }
@@ -49,12 +45,6 @@
 //!     }
 //!     fn gradient(&mut self, x: &[f64], _: bool, out: &mut [f64]) -> Result<(), EvaluationError> {
 //!         out.iter_mut().zip(x).zip(self.0).for_each(|((out, x), a)| *out = x.exp() - a);
-//!         Ok(())
-//!     }
-//!     fn constraints(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-//!         Ok(())
-//!     }
-//!     fn jacobian(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
 //!         Ok(())
 //!     }
 //!     fn hessian(
@@ -71,112 +61,64 @@
 //!     }
 //! }
 //!
-//! /// Without constraints between the variables the system is diagonal.
-//! #[derive(Default)]
-//! struct Diagonal {
-//!     rows: Vec<i32>,
-//!     diagonal: Vec<f64>,
-//! }
-//!
-//! impl LinearSolver for Diagonal {
-//!     fn analyse(&mut self, n: usize, rows: &[i32], _: &[i32]) -> Result<(), LinearSolverError> {
-//!         (self.rows, self.diagonal) = (rows.to_vec(), vec![0.0; n]);
-//!         Ok(())
-//!     }
-//!     fn factor(&mut self, values: &[f64]) -> Factorization {
-//!         self.diagonal.fill(0.0);
-//!         self.rows.iter().zip(values).for_each(|(&i, value)| self.diagonal[i as usize] += value);
-//!         let negative_eigenvalues = self.diagonal.iter().filter(|d| **d < 0.0).count();
-//!         Factorization::Regular { negative_eigenvalues }
-//!     }
-//!     fn solve(&mut self, right_hand_sides: &mut [f64]) {
-//!         right_hand_sides.iter_mut().zip(&self.diagonal).for_each(|(b, d)| *b /= d);
-//!     }
-//! }
-//!
 //! let options = Options { fast_step_computation: true, ..Options::default() };
 //! let start = Start::at(vec![1.0, 1.0]);
-//! let mut linear_solver = Diagonal::default();
-//! let solved = solve(&mut Separable([0.5, 2.0]), &options, &start, &mut linear_solver, |_| {
+//! let mut linear_solver = BunchKaufman::default();
+//! let solution = solve(&mut Separable([0.5, 2.0]), &options, &start, &mut linear_solver, |_| {
 //!     Control::Continue
 //! })?;
-//! assert_eq!(solved.solution.status, Status::Solved);
-//! assert!(solved.solution.x[0].abs() < 1e-6);
-//! assert!((solved.solution.x[1] - 2.0_f64.ln()).abs() < 1e-6);
-//! # Ok::<(), righting_interior::GivesUp>(())
+//! assert_eq!(solution.status, Status::Solved);
+//! assert!(solution.x[0].abs() < 1e-6);
+//! assert!((solution.x[1] - 2.0_f64.ln()).abs() < 1e-6);
+//! # Ok::<(), righting_interior::InteriorError>(())
 //! ```
+//!
+//! # Where each part comes from
+//!
+//! *W&B* is A. Wächter and L. T. Biegler, “On the implementation of an interior-point filter
+//! line-search algorithm for large-scale nonlinear programming”, *Mathematical Programming* 106,
+//! 2006. An *option* is one of Ipopt's options reference, under that name; constants that are
+//! options there and no field of [`Options`](righting_nlp::Options) have their default.
+//!
+//! | part | source |
+//! | --- | --- |
+//! | main loop | W&B section 2.5, Algorithm A |
+//! | optimality error, termination | W&B eqs. 5 and 6; options of *Termination* |
+//! | barrier function, fraction to the boundary, resets of z | W&B section 2.1 and eqs. 15, 16; section 3.4 |
+//! | barrier parameter | W&B eqs. 7 and 8; option `mu_allow_fast_monotone_decrease`; its least value is derived in `barrier_parameter.rs` |
+//! | augmented system | W&B eqs. 9 to 13; Nocedal & Wright, *Numerical Optimization*, 2nd ed., section 19.3 |
+//! | inertia correction | W&B section 3.1, Algorithm IC; Gould, *Mathematical Programming* 32, 1985; what differs is derived in `inertia_correction.rs` |
+//! | filter, switching and Armijo condition, least step | W&B section 2.3, eqs. 18 to 23; options of *Line Search* |
+//! | second-order corrections | W&B section 2.4, steps A-5.5 to A-5.9 |
+//! | watchdog, filter reset | W&B section 3.2; Chamberlain, Powell, Lemaréchal & Pedersen, *Mathematical Programming Studies* 16, 1982 |
+//! | bounds that move | W&B section 3.5; option `slack_move`; the distance is derived in `barrier.rs` |
+//! | first iterate, least-squares multipliers | W&B section 3.6, eq. 36; options of *Initialization* and *Warm Start* |
+//! | damping, scaling, tiny steps | W&B sections 3.7, 3.8 and 3.9 |
+//! | second-order sufficiency of a solution | Gould 1985; Nocedal & Wright, theorem 12.6 |
 #![forbid(unsafe_code)]
 
+mod algorithm;
 mod barrier;
+mod barrier_parameter;
+mod bound;
 mod convergence;
+mod error;
 mod filter;
+mod inertia_correction;
+mod initialization;
+mod iterate;
 mod line_search;
-mod method;
-mod point;
+mod linear_system;
+mod norm;
+mod optimality_error;
+mod primal_point;
 mod program;
-mod start;
-mod system;
+mod scaling;
+mod search_direction;
+mod second_order_correction;
+mod solve;
+mod state;
+mod watchdog;
 
-pub use method::{Solved, solve};
-
-use righting_ipopt::{LinearSolverError, SolveError};
-
-/// Why a solve ended without an answer. None of it says anything about the problem: Ipopt may well
-/// solve it.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum GivesUp {
-    /// An option asks for something that the method does not have.
-    #[error("{0} is not supported")]
-    Unsupported(&'static str),
-    /// A variable has equal bounds.
-    #[error("variable {index} is fixed")]
-    FixedVariable {
-        /// Which.
-        index: usize,
-    },
-    /// The problem, the start or an option is not what it has to be.
-    #[error(transparent)]
-    Invalid(#[from] SolveError),
-    /// A function or derivative is not defined where a step cannot be shortened.
-    #[error("a function is not defined at the start, or a derivative at an accepted point")]
-    Undefined,
-    /// The linear solver does not take the system.
-    #[error("the linear solver refuses the system")]
-    LinearSolver(#[source] LinearSolverError),
-    /// No regularisation gave a step.
-    #[error("no step could be computed")]
-    NoStep,
-    /// No step length was acceptable: Ipopt would enter its restoration phase.
-    #[error("no point along the step is acceptable")]
-    NeedsRestoration,
-    /// Two steps in a row were as small as rounding errors.
-    #[error("steps have become as small as rounding errors")]
-    TinySteps,
-}
-
-/// Whether every entry is a number, and finite.
-pub(crate) fn are_finite(values: &[f64]) -> bool {
-    // Without an early exit, so that it compiles to vector code.
-    values.iter().fold(true, |finite, value| finite & value.is_finite())
-}
-
-/// Numbers compared at a time: a chain of single comparisons would wait for each.
-const LANES: usize = 8;
-
-/// The maximum norm; not a number if an entry is not.
-pub(crate) fn largest(values: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    for chunk in chunks {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane = larger(*lane, value.abs());
-        }
-    }
-    rest.iter().map(|value| value.abs()).chain(lanes).fold(0.0, larger)
-}
-
-/// The larger size; not a number if one is not.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if b <= a || a.is_nan() { a } else { b }
-}
+pub use error::{FailureReason, InteriorError};
+pub use solve::solve;

@@ -1,74 +1,62 @@
-//! How far to go along a step. (Wächter & Biegler 2006, sections 2.3, 2.4 and 3.2.)
+//! The backtracking line search (W&B section 2.3, step A-5, with the heuristics of sections 3.2 and
+//! 3.9).
 
-use righting_ipopt::{LinearSolver, Problem};
+use righting_nlp::{LinearSolver, Problem};
 
-use crate::barrier::{dual_step, primal_step};
-use crate::filter::Reference;
-use crate::method::Method;
-use crate::point::{Point, Step};
-use crate::{GivesUp, largest};
+use crate::barrier::longest_dual_step;
+use crate::error::FailureReason;
+use crate::filter::{Filter, ReferencePoint};
+use crate::norm::max_norm;
+use crate::primal_point::PrimalPoint;
+use crate::second_order_correction::correct;
+use crate::state::State;
+use crate::watchdog::Watchdog;
 
-/// What a step is shortened by.
+/// What a step is shortened by (step; option `alpha_red_factor`).
 const REDUCTION: f64 = 0.5;
-/// A correction must leave less than this of the violation for another one to be tried.
-const KAPPA_SOC: f64 = 0.99;
-/// Relative steps below this are as small as rounding errors …
+/// Relative steps below this are as small as rounding errors (W&B section 3.9; option
+/// `tiny_step_tol`) …
 const TINY_STEP: f64 = 10.0 * f64::EPSILON;
-/// … where the constraints are satisfied to this.
-const TINY_STEP_VIOLATION: f64 = 1e-4;
-/// And those of the multipliers below this.
+/// … and those of the multipliers below this (option `tiny_step_y_tol`).
 const TINY_STEP_OF_MULTIPLIERS: f64 = 1e-2;
 
-/// The part of a step that was taken.
+/// The part of a direction that was taken.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Taken {
+pub(crate) struct StepLengths {
+    /// α, of w and y.
     pub(crate) primal: f64,
+    /// α_z, of z.
     pub(crate) dual: f64,
     /// Step lengths tried.
     pub(crate) trials: usize,
 }
 
-/// Counts shortened steps, and after enough of them takes full ones for a while.
-#[derive(Debug, Default)]
-pub(crate) struct Watchdog {
-    shortened: u32,
-    origin: Option<Box<Origin>>,
+impl StepLengths {
+    /// Before the first step.
+    pub(crate) const NONE: Self = Self { primal: 0.0, dual: 0.0, trials: 0 };
 }
 
-/// Where the watchdog began, to go back to.
+/// What the line search remembers from step to step.
 #[derive(Debug)]
-struct Origin {
-    point: Point,
-    y: Vec<f64>,
-    z: Vec<f64>,
-    step: Step,
-    reference: Reference,
-    /// Steps since.
-    steps: u32,
-}
-
-impl Watchdog {
-    /// Whether it is at work and takes this step whatever it does; at most so many.
-    fn goes_on(&mut self, most: u32) -> bool {
-        let Some(origin) = self.origin.as_mut().filter(|origin| origin.steps < most) else {
-            return false;
-        };
-        origin.steps += 1;
-        true
-    }
+pub(crate) struct LineSearch {
+    filter: Filter,
+    watchdog: Watchdog,
+    trial: PrimalPoint,
+    /// Whether the last step was as small as rounding errors.
+    was_tiny: bool,
 }
 
 /// How to backtrack.
 struct Backtracking {
-    reference: Reference,
+    reference: ReferencePoint,
     /// Whether the full step has been tried.
     skips_first: bool,
-    /// Whether the factorisation is that of the point, which corrections solve with.
+    /// Whether the factorisation is that of the iterate, which corrections solve with.
     may_correct: bool,
 }
 
 /// How it ended.
-enum Backtracked {
+enum Outcome {
     Accepted(f64),
     /// Not accepted; the last step length tried.
     Rejected(f64),
@@ -76,187 +64,147 @@ enum Backtracked {
     Undefined,
 }
 
-impl<P, L> Method<'_, P, L>
-where
-    P: Problem + ?Sized,
-    L: LinearSolver + ?Sized,
-{
-    /// Leaves the point to go on from as the trial point, with its multipliers in place.
-    pub(crate) fn line_search(&mut self) -> Result<Taken, GivesUp> {
-        let mut search = if self.is_tiny() {
-            let Some(reference) = self.return_to_origin() else { return self.take_tiny_step() };
+impl LineSearch {
+    pub(crate) fn new(point: &PrimalPoint) -> Self {
+        Self {
+            filter: Filter::default(),
+            watchdog: Watchdog::default(),
+            trial: point.clone(),
+            was_tiny: false,
+        }
+    }
+
+    /// Forgets what belongs to the last barrier problem (step A-3).
+    pub(crate) fn reset(&mut self) {
+        self.filter.reset();
+        self.watchdog = Watchdog::default();
+    }
+
+    /// Moves the iterate along its direction; its derivatives stay behind.
+    pub(crate) fn search<P, L>(
+        &mut self,
+        state: &mut State<'_, P, L>,
+    ) -> Result<StepLengths, FailureReason>
+    where
+        P: Problem + ?Sized,
+        L: LinearSolver + ?Sized,
+    {
+        let mut search = if is_tiny(state) {
+            let Some(reference) = self.watchdog.restore(state) else {
+                return self.take_tiny_step(state);
+            };
             Backtracking { reference, skips_first: false, may_correct: false }
         } else {
-            let origin = self.watchdog.origin.as_ref();
-            let reference = origin.map_or_else(|| self.reference(), |origin| origin.reference);
+            let reference = self.watchdog.reference().unwrap_or_else(|| state.reference());
             Backtracking { reference, skips_first: false, may_correct: true }
         };
         self.was_tiny = false;
-        self.start_watchdog(search.reference);
-        let mut shortened = 0;
-        let primal = loop {
-            match self.backtrack(&search, &mut shortened)? {
-                Backtracked::Accepted(length) => {
-                    self.watchdog.origin = None;
+        self.watchdog.start(state, search.reference);
+        let mut reductions = 0;
+        let length = loop {
+            match self.backtrack(state, &search, &mut reductions)? {
+                Outcome::Accepted(length) => {
+                    self.watchdog.succeed();
                     break length;
                 }
-                Backtracked::Rejected(length)
-                    if self.watchdog.goes_on(self.options.watchdog_trial_iter_max) =>
-                {
+                Outcome::Rejected(length) if self.watchdog.takes_step(state.options) => {
                     break length;
                 }
-                Backtracked::Rejected(_) | Backtracked::Undefined => {
-                    let reference = self.return_to_origin().ok_or(GivesUp::NeedsRestoration)?;
+                Outcome::Rejected(_) | Outcome::Undefined => {
+                    let reference =
+                        self.watchdog.restore(state).ok_or(FailureReason::RestorationNeeded)?;
                     search = Backtracking { reference, skips_first: true, may_correct: false };
                 }
             }
         };
-        self.watchdog.shortened = if shortened == 0 { 0 } else { self.watchdog.shortened + 1 };
-        Ok(self.step_multipliers(primal, shortened + 1))
+        self.watchdog.count(reductions);
+        Ok(self.accept(state, length, reductions + 1))
     }
 
-    /// Starts the watchdog here if enough steps were shortened and it is not at work.
-    fn start_watchdog(&mut self, reference: Reference) {
-        let trigger = self.options.watchdog_shortened_iter_trigger;
-        if trigger > 0 && self.watchdog.origin.is_none() && self.watchdog.shortened >= trigger {
-            self.watchdog.origin = Some(Box::new(Origin {
-                point: self.point.clone(),
-                y: self.y.clone(),
-                z: self.z.clone(),
-                step: self.step.clone(),
-                reference,
-                steps: 0,
-            }));
-        }
-    }
-
-    /// Goes along the step without looking at what that does to the functions.
-    fn take_tiny_step(&mut self) -> Result<Taken, GivesUp> {
-        let length = self.longest_step();
-        if self.was_tiny || !self.try_step(length)? {
-            return Err(GivesUp::TinySteps);
-        }
-        self.was_tiny = largest(&self.step.y) < TINY_STEP_OF_MULTIPLIERS;
-        self.watchdog.shortened = 0;
-        Ok(self.step_multipliers(length, 0))
-    }
-
-    fn step_multipliers(&mut self, primal: f64, trials: usize) -> Taken {
-        let dual = dual_step(&self.z, &self.step.z, self.tau);
-        let Self { y, z, step, .. } = self;
-        y.iter_mut().zip(&step.y).for_each(|(y, dy)| *y += primal * dy);
-        z.iter_mut().zip(&step.z).for_each(|(z, dz)| *z += dual * dz);
-        Taken { primal, dual, trials }
-    }
-
-    fn reference(&self) -> Reference {
-        Reference { merit: self.point.merit(self.mu), slope: self.slope() }
-    }
-
-    /// Whether the step is lost in the rounding of the variables.
-    fn is_tiny(&self) -> bool {
-        let relative = |(step, w): (&f64, &f64)| step.abs() <= TINY_STEP * (1.0 + w.abs());
-        self.point.violation <= TINY_STEP_VIOLATION
-            && self.step.w.iter().zip(&self.point.w).all(relative)
-    }
-
-    /// Back to where the watchdog began, if it had. Derivatives and factorisation stay those of the
-    /// point that is left.
-    fn return_to_origin(&mut self) -> Option<Reference> {
-        let origin = self.watchdog.origin.take()?;
-        (self.point, self.y, self.z, self.step) = (origin.point, origin.y, origin.z, origin.step);
-        self.watchdog.shortened = 0;
-        Some(origin.reference)
-    }
-
-    fn backtrack(
+    /// Goes along the direction without looking at what that does to the functions.
+    fn take_tiny_step<P: Problem + ?Sized, L: ?Sized>(
         &mut self,
+        state: &mut State<'_, P, L>,
+    ) -> Result<StepLengths, FailureReason> {
+        let length = state.longest_step();
+        if self.was_tiny || !state.try_step(length, &mut self.trial)? {
+            return Err(FailureReason::TinySteps);
+        }
+        self.was_tiny = max_norm(&state.direction.y) < TINY_STEP_OF_MULTIPLIERS;
+        self.watchdog.count(0);
+        Ok(self.accept(state, length, 0))
+    }
+
+    /// Makes the trial point and its multipliers the iterate (W&B eq. 14).
+    fn accept<P: Problem + ?Sized, L: ?Sized>(
+        &mut self,
+        state: &mut State<'_, P, L>,
+        primal: f64,
+        trials: usize,
+    ) -> StepLengths {
+        let State { iterate, direction, barrier, .. } = state;
+        let dual = longest_dual_step(&iterate.z, &direction.z, barrier.tau);
+        iterate.y.iter_mut().zip(&direction.y).for_each(|(y, dy)| *y += primal * dy);
+        iterate.z.iter_mut().zip(&direction.z).for_each(|(z, dz)| *z += dual * dz);
+        std::mem::swap(&mut iterate.point, &mut self.trial);
+        StepLengths { primal, dual, trials }
+    }
+
+    fn backtrack<P, L>(
+        &mut self,
+        state: &mut State<'_, P, L>,
         search: &Backtracking,
-        shortened: &mut usize,
-    ) -> Result<Backtracked, GivesUp> {
+        reductions: &mut usize,
+    ) -> Result<Outcome, FailureReason>
+    where
+        P: Problem + ?Sized,
+        L: LinearSolver + ?Sized,
+    {
         let Backtracking { reference, skips_first, may_correct } = search;
-        let watches = self.watchdog.origin.is_some();
-        let longest = self.longest_step();
-        let least = if watches { longest } else { self.filter.least_step(reference) };
+        let Self { filter, watchdog, trial, .. } = self;
+        let longest = state.longest_step();
+        let least = if watchdog.is_active() { longest } else { filter.least_step(reference) };
         let mut length = if *skips_first { REDUCTION * longest } else { longest };
         let mut is_defined = true;
-        while length > least || *shortened == 0 {
-            is_defined = self.try_step(length)?;
+        while length > least || *reductions == 0 {
+            is_defined = state.try_step(length, trial)?;
             if is_defined {
-                let merit = self.trial.merit(self.mu);
-                let forced = usize::try_from(self.options.accept_after_max_steps)
-                    .is_ok_and(|most| *shortened >= most);
+                let measures = trial.measures(state.barrier.mu);
+                let forced = usize::try_from(state.options.accept_after_max_steps)
+                    .is_ok_and(|most| *reductions >= most);
                 if forced {
-                    self.filter.reset();
+                    // The filter may forbid this point, and with it all that come after.
+                    filter.reset();
                 }
-                if forced || self.filter.accepts(reference, length, &merit) {
-                    self.filter.step_taken(reference, length, &merit);
-                    return Ok(Backtracked::Accepted(length));
+                if forced || filter.accepts(reference, length, &measures) {
+                    filter.augment(reference, length, &measures);
+                    return Ok(Outcome::Accepted(length));
                 }
             }
-            if watches {
+            if watchdog.is_active() {
                 break;
             }
-            let increases = is_defined && self.trial.violation >= self.point.violation;
+            let increases = is_defined && trial.violation >= state.iterate.point.violation;
             if increases
                 && *may_correct
                 && length == longest
-                && let Some(corrected) = self.correct(reference, length)?
+                && let Some(corrected) = correct(state, trial, filter, reference, length)?
             {
-                return Ok(Backtracked::Accepted(corrected));
+                return Ok(Outcome::Accepted(corrected));
             }
             length *= REDUCTION;
-            *shortened += 1;
+            *reductions += 1;
         }
-        Ok(if is_defined { Backtracked::Rejected(length) } else { Backtracked::Undefined })
+        Ok(if is_defined { Outcome::Rejected(length) } else { Outcome::Undefined })
     }
+}
 
-    /// Second-order corrections of the first trial step; the length of the one that is accepted.
-    fn correct(&mut self, reference: &Reference, tested: f64) -> Result<Option<f64>, GivesUp> {
-        if self.options.max_soc == 0 {
-            return Ok(None);
-        }
-        let step = self.step.clone();
-        let mut residuals = self.point.residuals.clone();
-        let mut length = tested;
-        let mut violation_before = f64::INFINITY;
-        for _ in 0..self.options.max_soc {
-            if self.trial.violation > KAPPA_SOC * violation_before {
-                break;
-            }
-            violation_before = self.trial.violation;
-            for (c, trial) in residuals.iter_mut().zip(&self.trial.residuals) {
-                *c = trial + length * *c;
-            }
-            self.solve_for_step(&residuals);
-            length = self.longest_step();
-            if !self.step.is_finite() || !self.try_step(length)? {
-                break;
-            }
-            let merit = self.trial.merit(self.mu);
-            if self.filter.accepts(reference, tested, &merit) {
-                self.filter.step_taken(reference, tested, &merit);
-                return Ok(Some(length));
-            }
-        }
-        self.step = step;
-        Ok(None)
-    }
-
-    fn longest_step(&self) -> f64 {
-        primal_step(&self.program.bounds, &self.point.distances, &self.step.w, self.tau)
-    }
-
-    /// Evaluates the functions so far along the step; false where one is not defined.
-    fn try_step(&mut self, length: f64) -> Result<bool, GivesUp> {
-        let Self { trial, point, step, .. } = self;
-        for ((trial, w), dw) in trial.w.iter_mut().zip(&point.w).zip(&step.w) {
-            *trial = w + length * dw;
-        }
-        match trial.evaluate(&mut self.program, &self.z, self.mu) {
-            Ok(()) => Ok(true),
-            Err(GivesUp::Undefined) => Ok(false),
-            Err(other) => Err(other),
-        }
-    }
+/// Whether the direction is lost in the rounding of the variables, at a point that the termination
+/// test would call feasible (option `constr_viol_tol`). At any other a direction that does not
+/// reduce the violation is nothing to accept unseen.
+fn is_tiny<P: Problem + ?Sized, L: ?Sized>(state: &State<'_, P, L>) -> bool {
+    let point = &state.iterate.point;
+    let relative = |(step, w): (&f64, &f64)| step.abs() <= TINY_STEP * (1.0 + w.abs());
+    point.violation <= state.options.constr_viol_tol
+        && state.direction.w.iter().zip(&point.w).all(relative)
 }

@@ -1,36 +1,13 @@
 use std::time::Instant;
 
-use righting_ipopt::{
+use righting_nlp::{
     Declarations, EvaluationTiming, Multipliers, NlpScaling, Options, Problem, Start,
 };
 
-use crate::{GivesUp, are_finite, largest};
-
-/// Beyond this a bound is none, as in Ipopt.
-const NO_BOUND: f64 = 1e19;
-
-/// One bound of one variable or slack: `sign · (w − value) ≥ 0`. Every iteration reads them a dozen
-/// times, so they are small.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Bound {
-    pub(crate) value: f64,
-    index: u32,
-    is_upper: bool,
-    /// Whether there is no bound on the other side. (Wächter & Biegler 2006, section 3.7.)
-    pub(crate) is_only: bool,
-}
-
-impl Bound {
-    /// Of the variable or slack.
-    pub(crate) fn index(&self) -> usize {
-        self.index as usize
-    }
-
-    /// One for a lower bound, minus one for an upper one.
-    pub(crate) fn sign(&self) -> f64 {
-        if self.is_upper { -1.0 } else { 1.0 }
-    }
-}
+use crate::bound::Bound;
+use crate::error::FailureReason;
+use crate::norm::are_finite;
+use crate::scaling::GradientScaling;
 
 /// What a constraint demands of g.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +18,8 @@ pub(crate) enum Row {
     Slack(usize),
 }
 
-/// A problem as the method sees it: scaled, w = (x, s) with a slack for each inequality, and
+/// A problem as the method sees it: scaled, w = (x, s) with a slack for each inequality (W&B
+/// section 3.4), and
 ///
 /// ```text
 /// min f(x)   s.t.   c(w) = 0,   bounds of w
@@ -51,34 +29,39 @@ pub(crate) struct Program<'p, P: ?Sized> {
     pub(crate) declared: Declarations,
     pub(crate) rows: Vec<Row>,
     /// The row of each slack.
-    pub(crate) slack_rows: Vec<usize>,
+    slack_rows: Vec<usize>,
     pub(crate) bounds: Vec<Bound>,
-    /// Factor of the objective.
-    pub(crate) objective_scale: f64,
-    /// Factors of the constraints, if any is not one.
-    row_scales: Option<Vec<f64>>,
+    pub(crate) scaling: GradientScaling,
     pub(crate) timing: EvaluationTiming,
     /// Multipliers of the functions before they are scaled.
     unscaled: Vec<f64>,
 }
 
 impl<'p, P: Problem + ?Sized> Program<'p, P> {
-    /// Scales the functions as Ipopt does by their gradients at the start, and relaxes the bounds.
+    /// Scales the functions by their gradients at the start, and relaxes the bounds.
     pub(crate) fn new(
         problem: &'p mut P,
         options: &Options,
         start: &Start,
-    ) -> Result<Self, GivesUp> {
+    ) -> Result<Self, FailureReason> {
         let declared = Declarations::of(problem)?;
         declared.check_start(start)?;
+        if let Some(index) =
+            (0..declared.variables).find(|&i| declared.x_lower[i] == declared.x_upper[i])
+        {
+            return Err(FailureReason::FixedVariable { index });
+        }
+        let slack_rows: Vec<usize> = declared.inequalities().collect();
+        if declared.constraints - slack_rows.len() >= declared.variables {
+            return Err(FailureReason::Unsupported("as many equations as variables"));
+        }
         let mut program = Self {
             rows: Vec::with_capacity(declared.constraints),
-            slack_rows: Vec::new(),
+            slack_rows,
             bounds: Vec::new(),
             problem,
             declared,
-            objective_scale: 1.0,
-            row_scales: None,
+            scaling: GradientScaling::none(),
             timing: EvaluationTiming::default(),
             unscaled: Vec::new(),
         };
@@ -86,10 +69,8 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
             program.scale_by_gradients(options, &start.x)?;
         }
         program.classify_rows();
-        program.bounds = program.relaxed_bounds(options)?;
-        if program.rows.len() - program.slack_rows.len() >= program.variables() {
-            return Err(GivesUp::Unsupported("as many equations as variables"));
-        }
+        let Self { declared, scaling, .. } = &program;
+        program.bounds = Bound::relaxed(declared, options, |row| scaling.of_row(row));
         Ok(program)
     }
 
@@ -102,96 +83,50 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         self.variables() + self.slack_rows.len()
     }
 
-    fn scale_by_gradients(&mut self, options: &Options, x: &[f64]) -> Result<(), GivesUp> {
-        let (most, least) = (options.nlp_scaling_max_gradient, options.nlp_scaling_min_value);
+    /// The row whose slack a bound is of; `None` for that of a variable.
+    pub(crate) fn row_of(&self, bound: &Bound) -> Option<usize> {
+        bound.index().checked_sub(self.variables()).map(|slack| self.slack_rows[slack])
+    }
+
+    fn scale_by_gradients(&mut self, options: &Options, x: &[f64]) -> Result<(), FailureReason> {
         let mut gradient = vec![0.0; self.variables()];
         let mut jacobian = vec![0.0; self.declared.jacobian.len()];
         self.gradient(x, &mut gradient)?;
         self.jacobian(x, &mut jacobian)?;
-        let steepest = largest(&gradient);
-        if steepest > most {
-            self.objective_scale = (most / steepest).max(least);
-        }
-        let mut rows = vec![f64::MIN_POSITIVE; self.declared.constraints];
-        for (&row, value) in self.declared.jacobian.rows.iter().zip(&jacobian) {
-            let row = &mut rows[row as usize];
-            *row = row.max(value.abs());
-        }
-        // Ipopt scales equalities and inequalities apart.
-        let mut is_scaled = false;
-        for equalities in [true, false] {
-            let in_kind: Vec<usize> = (0..rows.len())
-                .filter(|&row| self.declared.is_equality(row) == equalities)
-                .collect();
-            let scales = in_kind.iter().any(|&row| rows[row] > most);
-            is_scaled |= scales;
-            for row in in_kind {
-                rows[row] = if scales { (most / rows[row]).min(1.0).max(least) } else { 1.0 };
-            }
-        }
-        self.row_scales = is_scaled.then_some(rows);
+        self.scaling = GradientScaling::of(&self.declared, options, &gradient, &jacobian);
         Ok(())
     }
 
     fn classify_rows(&mut self) {
+        let mut slack = self.variables();
         for row in 0..self.declared.constraints {
             self.rows.push(if self.declared.is_equality(row) {
-                Row::Equality(self.row_scale(row) * self.declared.g_lower[row])
+                Row::Equality(self.scaling.of_row(row) * self.declared.g_lower[row])
             } else {
-                self.slack_rows.push(row);
-                Row::Slack(self.primals() - 1)
+                slack += 1;
+                Row::Slack(slack - 1)
             });
         }
     }
 
-    /// The bounds of variables and slacks, in their order, the lower one of each first.
-    fn relaxed_bounds(&self, options: &Options) -> Result<Vec<Bound>, GivesUp> {
-        let outwards = |bound: f64| options.bound_relax_factor * bound.abs().max(1.0);
-        let mut bounds = Vec::new();
-        let mut add = |index: usize, lower: f64, upper: f64, scale: f64| {
-            let (has_lower, has_upper) = (lower > -NO_BOUND, upper < NO_BOUND);
-            let is_only = has_lower != has_upper;
-            let index = index as u32;
-            if has_lower {
-                let value = scale * (lower - outwards(lower));
-                bounds.push(Bound { value, index, is_upper: false, is_only });
-            }
-            if has_upper {
-                let value = scale * (upper + outwards(upper));
-                bounds.push(Bound { value, index, is_upper: true, is_only });
-            }
-        };
-        let Declarations { variables, x_lower, x_upper, g_lower, g_upper, .. } = &self.declared;
-        for (index, (&lower, &upper)) in x_lower.iter().zip(x_upper).enumerate() {
-            if lower == upper {
-                return Err(GivesUp::FixedVariable { index });
-            }
-            add(index, lower, upper, 1.0);
-        }
-        for (slack, &row) in self.slack_rows.iter().enumerate() {
-            add(variables + slack, g_lower[row], g_upper[row], self.row_scale(row));
-        }
-        Ok(bounds)
-    }
-
     /// f at these variables.
-    pub(crate) fn objective(&mut self, x: &[f64]) -> Result<f64, GivesUp> {
+    pub(crate) fn objective(&mut self, x: &[f64]) -> Result<f64, FailureReason> {
         let started = Instant::now();
         let value = self.problem.objective(x, true);
         self.timing.objective.add_since(started);
         match value {
-            Ok(value) if value.is_finite() => Ok(self.objective_scale * value),
-            _ => Err(GivesUp::Undefined),
+            Ok(value) if value.is_finite() => Ok(self.scaling.objective * value),
+            _ => Err(FailureReason::Undefined),
         }
     }
 
     /// c at these variables and slacks.
-    pub(crate) fn residuals(&mut self, w: &[f64], c: &mut [f64]) -> Result<(), GivesUp> {
+    pub(crate) fn residuals(&mut self, w: &[f64], c: &mut [f64]) -> Result<(), FailureReason> {
         let x = &w[..self.variables()];
         let started = Instant::now();
         let defined = self.problem.constraints(x, true, c).is_ok();
         self.timing.constraints.add_since(started);
-        if let Some(scales) = &self.row_scales {
+        if let Some(scales) = &self.scaling.constraints {
             c.iter_mut().zip(scales).for_each(|(c, scale)| *c *= scale);
         }
         for (c, row) in c.iter_mut().zip(&self.rows) {
@@ -204,22 +139,26 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
     }
 
     /// ∇f with respect to the variables.
-    pub(crate) fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), GivesUp> {
+    pub(crate) fn gradient(
+        &mut self,
+        x: &[f64],
+        gradient: &mut [f64],
+    ) -> Result<(), FailureReason> {
         let started = Instant::now();
         let defined = self.problem.gradient(x, true, gradient).is_ok();
         self.timing.gradient.add_since(started);
-        if self.objective_scale != 1.0 {
-            gradient.iter_mut().for_each(|g| *g *= self.objective_scale);
+        if self.scaling.objective != 1.0 {
+            gradient.iter_mut().for_each(|g| *g *= self.scaling.objective);
         }
         finite(defined, gradient)
     }
 
     /// ∂g/∂x.
-    pub(crate) fn jacobian(&mut self, x: &[f64], values: &mut [f64]) -> Result<(), GivesUp> {
+    pub(crate) fn jacobian(&mut self, x: &[f64], values: &mut [f64]) -> Result<(), FailureReason> {
         let started = Instant::now();
         let defined = self.problem.jacobian(x, true, values).is_ok();
         self.timing.jacobian.add_since(started);
-        if let Some(scales) = &self.row_scales {
+        if let Some(scales) = &self.scaling.constraints {
             for (value, &row) in values.iter_mut().zip(&self.declared.jacobian.rows) {
                 *value *= scales[row as usize];
             }
@@ -233,9 +172,9 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         x: &[f64],
         y: &[f64],
         values: &mut [f64],
-    ) -> Result<(), GivesUp> {
+    ) -> Result<(), FailureReason> {
         let started = Instant::now();
-        let multipliers = match &self.row_scales {
+        let multipliers = match &self.scaling.constraints {
             None => y,
             Some(scales) => {
                 self.unscaled.clear();
@@ -243,31 +182,27 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
                 &self.unscaled
             }
         };
-        let factor = self.objective_scale;
+        let factor = self.scaling.objective;
         let defined = self.problem.hessian(x, true, factor, multipliers, true, values).is_ok();
         self.timing.hessian.add_since(started);
         finite(defined, values)
     }
 
     /// Multipliers of the caller's problem as those of the scaled one: y, and z of each bound of a
-    /// variable; those of slacks follow from y.
+    /// variable. Those of a slack follow from y: the Lagrangian is stationary in the slack,
+    /// −y − z_L + z_U = 0, and at a solution only one of the two is not zero.
     pub(crate) fn scaled_multipliers(&self, start: &Start) -> Option<(Vec<f64>, Vec<f64>)> {
         let Multipliers { constraints, lower, upper } = start.multipliers.as_ref()?;
         let y: Vec<f64> = (0..constraints.len())
             .map(|row| constraints[row] * self.multiplier_scale(row))
             .collect();
-        let mut of_slack = vec![0.0; self.primals()];
-        for (row, y) in self.rows.iter().zip(&y) {
-            if let Row::Slack(index) = *row {
-                of_slack[index] = *y;
-            }
-        }
-        let z = self.bounds.iter().map(|bound| match bound.index() < self.variables() {
-            true if bound.sign() > 0.0 => lower[bound.index()] * self.objective_scale,
-            true => upper[bound.index()] * self.objective_scale,
-            false => -bound.sign() * of_slack[bound.index()],
+        let z = self.bounds.iter().map(|bound| match self.row_of(bound) {
+            None if bound.sign() > 0.0 => lower[bound.index()] * self.scaling.objective,
+            None => upper[bound.index()] * self.scaling.objective,
+            Some(row) => -bound.sign() * y[row],
         });
-        Some((y, z.collect()))
+        let z = z.collect();
+        Some((y, z))
     }
 
     /// The multipliers of the caller's problem.
@@ -276,7 +211,7 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
         for (bound, z) in self.bounds.iter().zip(z) {
             if bound.index() < self.variables() {
                 let side = if bound.sign() > 0.0 { &mut lower } else { &mut upper };
-                side[bound.index()] = z / self.objective_scale;
+                side[bound.index()] = z / self.scaling.objective;
             }
         }
         let constraints =
@@ -285,14 +220,11 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
     }
 
     fn multiplier_scale(&self, row: usize) -> f64 {
-        self.objective_scale / self.row_scale(row)
+        self.scaling.objective / self.scaling.of_row(row)
     }
 
-    pub(crate) fn row_scale(&self, row: usize) -> f64 {
-        self.row_scales.as_ref().map_or(1.0, |scales| scales[row])
-    }
-
-    /// Puts a point back into the caller's bounds, which were relaxed.
+    /// Puts a point back into the caller's bounds, which were relaxed (option
+    /// `honor_original_bounds`).
     pub(crate) fn put_within_bounds(&self, x: &mut [f64]) {
         for ((x, lower), upper) in
             x.iter_mut().zip(&self.declared.x_lower).zip(&self.declared.x_upper)
@@ -311,6 +243,6 @@ impl<'p, P: Problem + ?Sized> Program<'p, P> {
     }
 }
 
-fn finite(defined: bool, values: &[f64]) -> Result<(), GivesUp> {
-    if defined && are_finite(values) { Ok(()) } else { Err(GivesUp::Undefined) }
+fn finite(defined: bool, values: &[f64]) -> Result<(), FailureReason> {
+    if defined && are_finite(values) { Ok(()) } else { Err(FailureReason::Undefined) }
 }

@@ -4,21 +4,21 @@ mod common;
 
 use common::support::assert_close;
 use common::{fast, ipopt, own};
-use righting_interior::GivesUp;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use righting_interior::{FailureReason, InteriorError};
 use righting_ipopt::*;
 
 const VARIABLES: usize = 7;
 const CONSTRAINTS: usize = 5;
 const PROGRAMS: u64 = 300;
 
-/// Numbers from −1 to 1 by a linear congruential generator.
-struct Random(u64);
+/// Numbers from −1 to 1.
+struct Random(ChaCha8Rng);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        self.0.random_range(-1.0..1.0)
     }
 
     fn vector<const N: usize>(&mut self) -> [f64; N] {
@@ -45,7 +45,7 @@ struct Program {
 
 impl Program {
     fn random(seed: u64) -> Self {
-        let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        let mut random = Random(ChaCha8Rng::seed_from_u64(seed));
         let size = [1.0, 10.0, 1e3][(seed % 3) as usize];
         let mut program = Self {
             h: random.vector().map(|h| size * (1.1 + h)),
@@ -173,8 +173,11 @@ fn random_programs_are_solved_in_the_same_iterations() {
         let ipopt = ipopt.unwrap();
         regularized += ours.iter().filter(|iteration| iteration.regularization > 0.0).count();
         let own = match own {
-            Ok(solved) => solved.solution,
-            Err(GivesUp::NeedsRestoration | GivesUp::NoStep) => {
+            Ok(solution) => solution,
+            Err(InteriorError {
+                reason: FailureReason::RestorationNeeded | FailureReason::StepComputation,
+                ..
+            }) => {
                 given_up += 1;
                 continue;
             }

@@ -1,17 +1,21 @@
 //! What Ipopt calls, and the way from there to the user's [`Problem`].
 
-use crate::declarations::Declarations;
+use crate::iterate::Iterates;
 use crate::trap::Trap;
-use crate::{Control, EvaluationTiming, Iteration, Problem, Tally, TripletStructure};
+use crate::{Control, Declarations, EvaluationTiming, Iteration, Problem, Tally, TripletStructure};
 use righting_ipopt_sys as sys;
 use std::slice::{from_raw_parts, from_raw_parts_mut};
 use std::time::Instant;
 use sys::{Bool, Index, Number, UserDataPtr};
 
 /// What the user data of a solve points to.
+///
+/// Callbacks borrow what they need of it and no more: from within the iteration callback Ipopt may be
+/// asked for its iterate, and may evaluate the problem for the answer.
 pub(crate) struct Session<'a, P: ?Sized, F> {
     pub(crate) problem: &'a mut P,
     pub(crate) on_iteration: F,
+    pub(crate) iterates: Iterates,
     pub(crate) trap: &'a Trap,
     pub(crate) jacobian: &'a TripletStructure,
     pub(crate) hessian: &'a TripletStructure,
@@ -25,7 +29,7 @@ pub(crate) fn declared_jacobian_entries(declarations: &Declarations) -> usize {
 }
 
 /// `CreateIpoptProblem` with the callbacks of a [`Session<P, F>`].
-pub(crate) fn create<P, F>(declarations: &mut Declarations) -> sys::IpoptProblem
+pub(crate) fn create<P, F>(ipopt: &sys::Api, declarations: &mut Declarations) -> sys::IpoptProblem
 where
     P: Problem + ?Sized,
     F: FnMut(&Iteration) -> Control,
@@ -35,7 +39,7 @@ where
     let nonzeros = declared_jacobian_entries(declarations);
     // SAFETY: the arrays have the lengths given and Ipopt copies them.
     unsafe {
-        sys::CreateIpoptProblem(
+        (ipopt.CreateIpoptProblem)(
             index(declarations.variables),
             declarations.x_lower.as_mut_ptr(),
             declarations.x_upper.as_mut_ptr(),
@@ -54,25 +58,28 @@ where
     }
 }
 
-/// Every callback goes through here: no panic gets past it, and its time is counted.
+/// Every evaluation goes through here: no panic gets past it, and its time is counted.
 ///
 /// # Safety
-/// `user_data` must point to a `Session<P, F>` that nobody else uses until this returns.
-unsafe fn enter<P, F>(
+/// `user_data` must point to a `Session<P, F>` whose problem nobody else uses until this returns.
+unsafe fn evaluate<P, F>(
     user_data: UserDataPtr,
     tally: impl FnOnce(&mut EvaluationTiming) -> &mut Tally,
-    body: impl FnOnce(&mut Session<P, F>) -> bool,
+    body: impl FnOnce(&mut P) -> bool,
 ) -> Bool
 where
     P: ?Sized,
 {
-    // SAFETY: the caller's promise.
-    let session = unsafe { &mut *user_data.cast::<Session<P, F>>() };
+    let session = user_data.cast::<Session<P, F>>();
     let start = Instant::now();
-    let trap = session.trap;
-    let done = trap.run(|| body(session)).unwrap_or(false);
-    tally(&mut session.timing).add_since(start);
-    if done { sys::TRUE } else { sys::FALSE }
+    // SAFETY: the caller's promise. Of the session only the problem is borrowed while `body` runs,
+    // and only the tally afterwards; the iteration callback, which may be running, borrows neither.
+    unsafe {
+        let (trap, problem) = ((*session).trap, &mut *(*session).problem);
+        let done = trap.run(|| body(problem)).unwrap_or(false);
+        tally(&mut (*session).timing).add_since(start);
+        if done { sys::TRUE } else { sys::FALSE }
+    }
 }
 
 /// # Safety
@@ -110,10 +117,10 @@ unsafe extern "C" fn objective<P: Problem + ?Sized, F>(
     // SAFETY: Ipopt passes n numbers, room for one, and the user data of this solve.
     unsafe {
         let (x, value) = (read(x, n), write(value, 1));
-        enter::<P, F>(
+        evaluate::<P, F>(
             user_data,
             |timing| &mut timing.objective,
-            |session| match session.problem.objective(x, new_x != sys::FALSE) {
+            |problem| match problem.objective(x, new_x != sys::FALSE) {
                 Ok(objective) => {
                     value[0] = objective;
                     objective.is_finite()
@@ -134,12 +141,11 @@ unsafe extern "C" fn gradient<P: Problem + ?Sized, F>(
     // SAFETY: Ipopt passes n numbers, room for as many, and the user data of this solve.
     unsafe {
         let (x, values) = (read(x, n), write(values, n));
-        enter::<P, F>(
+        evaluate::<P, F>(
             user_data,
             |timing| &mut timing.gradient,
-            |session| {
-                session.problem.gradient(x, new_x != sys::FALSE, values).is_ok()
-                    && are_finite(values)
+            |problem| {
+                problem.gradient(x, new_x != sys::FALSE, values).is_ok() && are_finite(values)
             },
         )
     }
@@ -156,12 +162,10 @@ unsafe extern "C" fn constraints<P: Problem + ?Sized, F>(
     // SAFETY: Ipopt passes n numbers, room for m, and the user data of this solve.
     unsafe {
         let (x, g) = (read(x, n), write(g, m));
-        enter::<P, F>(
+        evaluate::<P, F>(
             user_data,
             |timing| &mut timing.constraints,
-            |session| {
-                session.problem.constraints(x, new_x != sys::FALSE, g).is_ok() && are_finite(g)
-            },
+            |problem| problem.constraints(x, new_x != sys::FALSE, g).is_ok() && are_finite(g),
         )
     }
 }
@@ -180,18 +184,18 @@ unsafe extern "C" fn jacobian<P: Problem + ?Sized, F>(
     // SAFETY: Ipopt passes n numbers or none, room for `count` indices or values, and the user
     // data of this solve.
     unsafe {
+        let structure = (*user_data.cast::<Session<P, F>>()).jacobian;
         if values.is_null() {
-            let session = &*user_data.cast::<Session<P, F>>();
-            return give_structure(session.jacobian, write(rows, count), write(columns, count));
+            return give_structure(structure, write(rows, count), write(columns, count));
         }
         let (x, values) = (read(x, n), write(values, count));
-        enter::<P, F>(
+        evaluate::<P, F>(
             user_data,
             |timing| &mut timing.jacobian,
-            |session| {
-                let (own, padding) = values.split_at_mut(session.jacobian.len());
+            |problem| {
+                let (own, padding) = values.split_at_mut(structure.len());
                 padding.fill(0.0);
-                session.problem.jacobian(x, new_x != sys::FALSE, own).is_ok() && are_finite(own)
+                problem.jacobian(x, new_x != sys::FALSE, own).is_ok() && are_finite(own)
             },
         )
     }
@@ -215,20 +219,17 @@ unsafe extern "C" fn hessian<P: Problem + ?Sized, F>(
     // and the user data of this solve.
     unsafe {
         if values.is_null() {
-            let session = &*user_data.cast::<Session<P, F>>();
-            return give_structure(session.hessian, write(rows, count), write(columns, count));
+            let structure = (*user_data.cast::<Session<P, F>>()).hessian;
+            return give_structure(structure, write(rows, count), write(columns, count));
         }
         let (x, multipliers) = (read(x, n), read(multipliers, m));
         let (new_x, new_multipliers) = (new_x != sys::FALSE, new_multipliers != sys::FALSE);
         let values = write(values, count);
-        enter::<P, F>(
+        evaluate::<P, F>(
             user_data,
             |timing| &mut timing.hessian,
-            |session| {
-                session
-                    .problem
-                    .hessian(x, new_x, factor, multipliers, new_multipliers, values)
-                    .is_ok()
+            |problem| {
+                problem.hessian(x, new_x, factor, multipliers, new_multipliers, values).is_ok()
                     && are_finite(values)
             },
         )
@@ -276,15 +277,17 @@ where
         alpha_dual,
         line_search_trials: usize::try_from(trials).unwrap_or(0),
     };
-    // SAFETY: Ipopt passes the user data of this solve.
+    let session = user_data.cast::<Session<P, F>>();
+    let start = Instant::now();
+    // SAFETY: Ipopt passes the user data of this solve. While the callback runs only the callback
+    // itself is borrowed, so that the problem may be evaluated meanwhile.
     unsafe {
-        enter::<P, F>(
-            user_data,
-            |timing| &mut timing.iteration,
-            |session| {
-                session.last_iteration = Some(iteration);
-                (session.on_iteration)(&iteration) == Control::Continue
-            },
-        )
+        (*session).last_iteration = Some(iteration);
+        let (trap, iterates) = ((*session).trap, (*session).iterates);
+        let on_iteration = &mut (*session).on_iteration;
+        let restoration = iteration.restoration;
+        let outcome = trap.run(|| iterates.within(restoration, || on_iteration(&iteration)));
+        (*session).timing.iteration.add_since(start);
+        if outcome == Some(Control::Continue) { sys::TRUE } else { sys::FALSE }
     }
 }

@@ -1,10 +1,14 @@
+use crate::options::to_pass;
 use crate::{OptionValue, Options, Scaling, SolveError};
 use righting_ipopt_sys as sys;
 use std::ffi::{CString, c_void};
 use std::ptr::null_mut;
 
 /// Owns an `IpoptProblem`.
-pub(crate) struct Handle(sys::IpoptProblem);
+pub(crate) struct Handle {
+    ipopt: &'static sys::Api,
+    problem: sys::IpoptProblem,
+}
 
 /// The arrays that Ipopt reads the start from and writes the solution to.
 pub(crate) struct Arrays<'a> {
@@ -20,9 +24,16 @@ impl Handle {
     /// Takes what `CreateIpoptProblem` returned.
     ///
     /// # Safety
-    /// It must be null or a problem that nobody else frees.
-    pub(crate) unsafe fn own(problem: sys::IpoptProblem) -> Result<Self, SolveError> {
-        if problem.is_null() { Err(SolveError::NotCreated) } else { Ok(Self(problem)) }
+    /// It must be null or a problem of this library that nobody else frees.
+    pub(crate) unsafe fn own(
+        ipopt: &'static sys::Api,
+        problem: sys::IpoptProblem,
+    ) -> Result<Self, SolveError> {
+        if problem.is_null() { Err(SolveError::NotCreated) } else { Ok(Self { ipopt, problem }) }
+    }
+
+    pub(crate) fn problem(&self) -> sys::IpoptProblem {
+        self.problem
     }
 
     /// Keeps Ipopt from reading a file, and from printing more than asked for.
@@ -35,25 +46,30 @@ impl Handle {
         self.set("print_level", &OptionValue::Integer(0))?;
         let null: *mut f64 = null_mut();
         // SAFETY: with a null start `IpoptSolve` returns before it uses anything but the options.
-        unsafe { sys::IpoptSolve(self.0, null, null, null, null, null, null, null_mut()) };
+        unsafe {
+            (self.ipopt.IpoptSolve)(self.problem, null, null, null, null, null, null, null_mut());
+        }
         self.set("print_level", &OptionValue::Integer(print_level.try_into().unwrap_or(i32::MAX)))
     }
 
     pub(crate) fn set_all(&self, options: &Options) -> Result<(), SolveError> {
-        options.to_pass().iter().try_for_each(|(name, value)| self.set(name, value))
+        to_pass(options).iter().try_for_each(|(name, value)| self.set(name, value))
     }
 
     pub(crate) fn set(&self, name: &str, value: &OptionValue) -> Result<(), SolveError> {
+        let Self { ipopt, problem } = *self;
         let keyword = c_string(name)?;
         let keyword = keyword.as_ptr().cast_mut();
         // SAFETY: Ipopt copies the strings, which end with a zero, and does not write to them.
         let taken = unsafe {
             match value {
-                OptionValue::Number(number) => sys::AddIpoptNumOption(self.0, keyword, *number),
-                OptionValue::Integer(integer) => sys::AddIpoptIntOption(self.0, keyword, *integer),
+                OptionValue::Number(number) => (ipopt.AddIpoptNumOption)(problem, keyword, *number),
+                OptionValue::Integer(integer) => {
+                    (ipopt.AddIpoptIntOption)(problem, keyword, *integer)
+                }
                 OptionValue::Text(text) => {
                     let text = c_string(text)?;
-                    sys::AddIpoptStrOption(self.0, keyword, text.as_ptr().cast_mut())
+                    (ipopt.AddIpoptStrOption)(problem, keyword, text.as_ptr().cast_mut())
                 }
             }
         };
@@ -71,13 +87,13 @@ impl Handle {
         };
         let (x, g) = (pointer(&mut scaling.x), pointer(&mut scaling.g));
         // SAFETY: the arrays have the lengths of the problem and are copied.
-        unsafe { sys::SetIpoptProblemScaling(self.0, scaling.objective, x, g) };
+        unsafe { (self.ipopt.SetIpoptProblemScaling)(self.problem, scaling.objective, x, g) };
         Ok(())
     }
 
     pub(crate) fn set_iteration_callback(&self, callback: sys::Intermediate_CB) {
         // SAFETY: the handle is valid; whether the callback is, `solve` answers for.
-        unsafe { sys::SetIntermediateCallback(self.0, callback) };
+        unsafe { (self.ipopt.SetIntermediateCallback)(self.problem, callback) };
     }
 
     /// Solves.
@@ -91,8 +107,8 @@ impl Handle {
     ) -> sys::ApplicationReturnStatus {
         // SAFETY: the caller's promise.
         unsafe {
-            sys::IpoptSolve(
-                self.0,
+            (self.ipopt.IpoptSolve)(
+                self.problem,
                 arrays.x.as_mut_ptr(),
                 arrays.g.as_mut_ptr(),
                 arrays.objective,
@@ -108,7 +124,7 @@ impl Handle {
 impl Drop for Handle {
     fn drop(&mut self) {
         // SAFETY: the handle owns the problem.
-        unsafe { sys::FreeIpoptProblem(self.0) }
+        unsafe { (self.ipopt.FreeIpoptProblem)(self.problem) }
     }
 }
 

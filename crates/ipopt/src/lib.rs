@@ -70,8 +70,15 @@
 //! # Linear solvers
 //!
 //! [`solve`] lets Ipopt use MUMPS. [`solve_with`] plugs in a [`LinearSolver`] of the caller's, which
-//! may know the structure of the problem: Ipopt 3.11 to 3.13 call MA57 through function pointers
-//! that a program may set, and that is where it is called from.
+//! may know the structure of the problem. To Ipopt it is MA57: up to 3.13 it calls MA57 through
+//! function pointers that a program may set, from 3.14 on through a shared library that its option
+//! `hsllib` names, here a page of memory that passes the calls on.
+//!
+//! # Loading
+//!
+//! With the feature `dlopen`, which is on by default, Ipopt's library is opened by the first solve:
+//! a program that does not solve runs without it, and does not wait for it. Where it is missing,
+//! every solve is [`SolveError::NotLoaded`].
 //!
 //! # Threads
 //!
@@ -85,8 +92,7 @@
 //! timings include the other threads.
 //!
 //! A threaded BLAS makes MUMPS slower on the small fronts of these problems and its rounding
-//! depends on the number of threads. It reads its environment once, when it is loaded, so only
-//! whoever starts the process can choose: run with `OPENBLAS_NUM_THREADS=1`.
+//! depends on the number of threads: a program calls [`use_one_blas_thread`] before it solves.
 //!
 //! # Panics and nesting
 //!
@@ -95,33 +101,30 @@
 //! is started from within a solve on the same thread is refused.
 
 mod callbacks;
-mod declarations;
+mod diagnosis;
 mod error;
 mod handle;
-mod iteration;
+mod iterate;
 mod libraries;
-mod linear_solver;
 mod options;
-mod problem;
 mod slot;
-mod solution;
 mod solve;
-mod start;
 mod status;
-mod timing;
 mod trap;
 
-pub use declarations::Declarations;
-pub use error::{Matrix, SolveError, VectorName};
-pub use iteration::{Control, Iteration};
-pub use libraries::{Library, LinearSolvers, Versions, versions};
-pub use linear_solver::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
-pub use options::{
-    FixedVariables, Hessian, MuStrategy, MultiplierInitialization, NlpScaling, OptionValue, Options,
-};
-pub use problem::{Bounds, Dimensions, EvaluationError, Problem, Scaling, TripletStructure};
-pub use solution::Solution;
+pub use diagnosis::{Diagnosis, LinearSolverSlot, Mumps, diagnose};
+pub use error::SolveError;
+pub use iterate::{Iterate, Violations, current_iterate, current_violations};
+pub use libraries::{Library, Versions, versions};
+pub use righting_ipopt_sys::hsl::SlotError;
+pub use righting_ipopt_sys::{LoadError, STARTS_MPI, use_one_blas_thread};
 pub use solve::{solve, solve_with};
-pub use start::{Multipliers, Start};
-pub use status::Status;
-pub use timing::{EvaluationTiming, LinearSolverTiming, Tally, Timing};
+
+pub use righting_nlp::{
+    AugmentedSystem, Bounds, BunchKaufman, Control, Declarations, Dimensions, EvaluationError,
+    EvaluationTiming, Factorization, FixedVariables, Hessian, Iteration, LinearSolver,
+    LinearSolverError, LinearSolverTiming, MatrixName, MuStrategy, MultiplierInitialization,
+    Multipliers, NlpError, NlpScaling, NlpSolution, OptionRange, OptionValue, Options,
+    PivotTolerances, Problem, ReducedHessian, Scaling, Start, Status, Tally, Timing,
+    TripletStructure, VectorName,
+};

@@ -1,34 +1,24 @@
-use crate::{
-    Bounds, Control, Dimensions, EvaluationError, Options, Problem, Start, Status,
-    TripletStructure, solve,
-};
+//! What a process solves with, as far as that can be told without solving.
+
+use righting_ipopt_sys as sys;
+use std::ffi::c_int;
 use std::path::{Path, PathBuf};
 
 /// What this process solves with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Versions {
-    /// The version of Ipopt that this program was built against.
-    pub ipopt: &'static str,
-    /// Which linear solvers can be used.
-    pub linear_solvers: LinearSolvers,
-    /// Ipopt, MUMPS, BLAS and LAPACK as the process has loaded them. Empty where the system does
-    /// not say (only Linux does).
+    /// The version of Ipopt. Until something is solved, that which this program was built for; the
+    /// name of the library's file where the library in use is another one and does not say.
+    pub ipopt: String,
+    /// Ipopt, MUMPS, MPI, BLAS and LAPACK as the process has loaded them: none before the first
+    /// solve, and none where the system does not say (only Linux does).
     pub libraries: Vec<Library>,
-}
-
-/// Which linear solvers can be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LinearSolvers {
-    /// MUMPS, by [`solve`](crate::solve); found out by solving.
-    pub mumps: bool,
-    /// One's own, by [`solve_with`](crate::solve_with).
-    pub own: bool,
 }
 
 /// A shared library that the process has loaded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Library {
-    /// What it is: Ipopt, MUMPS, BLAS or LAPACK.
+    /// What it is: Ipopt, MUMPS, MPI, BLAS or LAPACK.
     pub name: &'static str,
     /// The file, links resolved. Its directory tells one BLAS from another on Debian.
     pub path: PathBuf,
@@ -36,24 +26,33 @@ pub struct Library {
     pub version: Option<String>,
 }
 
-/// Finds out what this process solves with, by solving a problem of one variable.
+/// What this process solves with, without solving anything or loading what is not loaded yet.
 pub fn versions() -> Versions {
-    let start = Start::at(vec![1.0]);
-    let solution = solve(&mut Parabola, &Options::default(), &start, |_| Control::Continue);
-    Versions {
-        ipopt: righting_ipopt_sys::VERSION,
-        linear_solvers: LinearSolvers {
-            mumps: solution.is_ok_and(|solution| solution.status == Status::Solved),
-            own: righting_ipopt_sys::HAS_MA57_SLOT,
-        },
-        libraries: loaded_libraries(),
+    let libraries = loaded_libraries();
+    Versions { ipopt: ipopt_version(&libraries), libraries }
+}
+
+fn ipopt_version(libraries: &[Library]) -> String {
+    if let Some(get) = sys::api_in_use().and_then(|ipopt| ipopt.GetIpoptVersion) {
+        let (mut major, mut minor, mut release): (c_int, c_int, c_int) = (0, 0, 0);
+        // SAFETY: it writes one number to each.
+        unsafe { get(&raw mut major, &raw mut minor, &raw mut release) };
+        return format!("{major}.{minor}.{release}");
+    }
+    // On Debian, one version has one file.
+    let ipopt = libraries.iter().find(|library| library.name == "Ipopt");
+    let file = ipopt.and_then(|library| library.path.file_name()).and_then(|file| file.to_str());
+    match (file, sys::LIBRARY_FILE) {
+        (Some(used), Some(built_for)) if used != built_for => used.to_owned(),
+        _ => sys::VERSION.to_owned(),
     }
 }
 
-const PREFIXES: [(&str, &str); 8] = [
+const PREFIXES: [(&str, &str); 9] = [
     ("libipopt", "Ipopt"),
     ("libdmumps", "MUMPS"),
     ("libcoinmumps", "MUMPS"),
+    ("libmpi.", "MPI"),
     ("liblapack", "LAPACK"),
     ("libblas", "BLAS"),
     ("libopenblas", "BLAS"),
@@ -91,55 +90,6 @@ fn version_in(file: &str) -> Option<String> {
         .map(str::to_owned)
 }
 
-/// min x², the least that a linear solver is needed for.
-struct Parabola;
-
-impl Problem for Parabola {
-    fn dimensions(&self) -> Dimensions {
-        Dimensions { variables: 1, constraints: 0 }
-    }
-
-    fn bounds(&self, _: &mut Bounds) {}
-
-    fn jacobian_structure(&self) -> TripletStructure {
-        TripletStructure::default()
-    }
-
-    fn hessian_structure(&self) -> TripletStructure {
-        TripletStructure { rows: vec![0], columns: vec![0] }
-    }
-
-    fn objective(&mut self, x: &[f64], _: bool) -> Result<f64, EvaluationError> {
-        Ok(x[0] * x[0])
-    }
-
-    fn gradient(&mut self, x: &[f64], _: bool, out: &mut [f64]) -> Result<(), EvaluationError> {
-        out[0] = 2.0 * x[0];
-        Ok(())
-    }
-
-    fn constraints(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-        Ok(())
-    }
-
-    fn jacobian(&mut self, _: &[f64], _: bool, _: &mut [f64]) -> Result<(), EvaluationError> {
-        Ok(())
-    }
-
-    fn hessian(
-        &mut self,
-        _: &[f64],
-        _: bool,
-        objective_factor: f64,
-        _: &[f64],
-        _: bool,
-        values: &mut [f64],
-    ) -> Result<(), EvaluationError> {
-        values[0] = 2.0 * objective_factor;
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,15 +105,16 @@ mod tests {
     }
 
     #[test]
-    #[cfg(all(target_os = "linux", ipopt_ma57_slot))]
-    fn the_libraries_in_use_are_found() {
-        let Versions { ipopt, linear_solvers, libraries } = versions();
-        assert!(ipopt.starts_with("3."));
-        assert!(linear_solvers.mumps);
-        // As Debian links them.
-        for name in ["Ipopt", "MUMPS", "BLAS", "LAPACK"] {
-            let found = libraries.iter().find(|library| library.name == name);
-            assert!(found.is_some_and(|library| library.path.exists()), "{name}: {libraries:?}");
+    fn another_file_is_not_said_to_be_the_version_built_for() {
+        let library = |file: &str| Library {
+            name: "Ipopt",
+            path: Path::new("/usr/lib").join(file),
+            version: None,
+        };
+        assert_eq!(ipopt_version(&[]), sys::VERSION);
+        if let Some(file) = sys::LIBRARY_FILE {
+            assert_eq!(ipopt_version(&[library(file)]), sys::VERSION);
+            assert_eq!(ipopt_version(&[library("libipopt.so.9")]), "libipopt.so.9");
         }
     }
 }

@@ -4,13 +4,14 @@
 //! is found through a thread-local: Ipopt calls them on the thread that solves. It allocates
 //! MA57's work arrays but only MA57 reads them; here they are as small as can be and unused.
 
-#[cfg(ipopt_ma57_slot)]
 mod ma57;
 
 use crate::trap::Trap;
 use crate::{Factorization, LinearSolver, LinearSolverError, LinearSolverTiming, SolveError};
+use righting_ipopt_sys::hsl::{SlotError, ma57_slot};
 use std::cell::Cell;
 use std::ptr::null_mut;
+use std::sync::Once;
 use std::time::Instant;
 
 thread_local! {
@@ -27,17 +28,15 @@ pub(crate) struct Report {
     pub(crate) failed: bool,
 }
 
-/// Fails where Ipopt has no slot.
-#[cfg(not(ipopt_ma57_slot))]
-pub(crate) fn install() -> Result<(), SolveError> {
-    Err(SolveError::NoLinearSolverSlot)
-}
-
-/// Puts this module in the place of MA57.
-#[cfg(ipopt_ma57_slot)]
-pub(crate) fn install() -> Result<(), SolveError> {
-    ma57::install();
-    Ok(())
+/// Puts this module in the place of MA57; gives what Ipopt's option `hsllib` must be, if anything.
+pub(crate) fn install() -> Result<Option<&'static str>, SolveError> {
+    static INSTALLED: Once = Once::new();
+    let slot = ma57_slot().map_err(|error| match error {
+        SlotError::Load(error) => SolveError::NotLoaded(error),
+        error => SolveError::NoLinearSolverSlot(error),
+    })?;
+    INSTALLED.call_once(|| ma57::install(slot.set));
+    Ok(slot.hsllib.as_deref())
 }
 
 /// Runs `body`; meanwhile the calls of MA57 on this thread reach `solver`.
@@ -70,7 +69,6 @@ pub(crate) fn with_solver<T>(
     (result, slot.report)
 }
 
-#[cfg_attr(not(ipopt_ma57_slot), allow(dead_code))]
 struct Slot<'a> {
     solver: &'a mut dyn LinearSolver,
     takes_tolerances: bool,
@@ -81,7 +79,6 @@ struct Slot<'a> {
     columns: Vec<i32>,
 }
 
-#[cfg_attr(not(ipopt_ma57_slot), allow(dead_code))]
 impl Slot<'_> {
     /// Runs `body` on the slot of the solve that this thread is in; `None` outside of one.
     fn with_current<T>(body: impl FnOnce(&mut Slot<'static>) -> T) -> Option<T> {

@@ -1,12 +1,15 @@
 use crate::callbacks::{self, Session};
-use crate::declarations::Declarations;
 use crate::handle::{Arrays, Handle};
+use crate::iterate::Iterates;
+use crate::options::validate;
 use crate::slot::{self, Report};
+use crate::status::{brings_functions, status};
 use crate::trap::Trap;
 use crate::{
-    Control, EvaluationTiming, Iteration, LinearSolver, Multipliers, OptionValue, Options,
-    PivotTolerances, Problem, Solution, SolveError, Start, Status, Timing,
+    Control, Declarations, EvaluationTiming, Iteration, LinearSolver, Multipliers, NlpSolution,
+    OptionValue, Options, PivotTolerances, Problem, SolveError, Start, Status, Timing,
 };
+use righting_ipopt_sys as sys;
 use std::cell::Cell;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -17,8 +20,8 @@ use std::time::Instant;
 /// solves with MUMPS.
 ///
 /// # Errors
-/// When the problem, the options or the start are not usable. However a solve ends that was begun
-/// is a [`Status`].
+/// When there is no Ipopt, or the problem, the options or the start are not usable. However a solve
+/// ends that was begun is a [`Status`].
 ///
 /// # Panics
 /// When `problem` or `on_iteration` does.
@@ -27,14 +30,14 @@ pub fn solve<P: Problem + ?Sized>(
     options: &Options,
     start: &Start,
     on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<Solution, SolveError> {
+) -> Result<NlpSolution, SolveError> {
     Solve { problem, options, start }.run(Engine::Mumps, on_iteration)
 }
 
 /// Solves with the linear solver given; otherwise as [`solve`], but waits for nobody.
 ///
 /// # Errors
-/// As [`solve`], and [`SolveError::NoLinearSolverSlot`] with Ipopt 3.14 or newer,
+/// As [`solve`], and [`SolveError::NoLinearSolverSlot`] where Ipopt cannot be given one,
 /// [`SolveError::LinearSolver`] when the solver refuses the system.
 ///
 /// # Panics
@@ -45,7 +48,7 @@ pub fn solve_with<P: Problem + ?Sized, S: LinearSolver>(
     start: &Start,
     linear_solver: &mut S,
     on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<Solution, SolveError> {
+) -> Result<NlpSolution, SolveError> {
     Solve { problem, options, start }.run(Engine::Slot(linear_solver), on_iteration)
 }
 
@@ -61,30 +64,32 @@ enum Engine<'a> {
 }
 
 impl<P: Problem + ?Sized> Solve<'_, P> {
-    fn run<F>(self, engine: Engine, on_iteration: F) -> Result<Solution, SolveError>
+    fn run<F>(self, engine: Engine, on_iteration: F) -> Result<NlpSolution, SolveError>
     where
         F: FnMut(&Iteration) -> Control,
     {
         let _this_thread = Busy::enter()?;
-        self.options.validate()?;
+        validate(self.options)?;
         let mut declarations = Declarations::of(self.problem)?;
         declarations.check_start(self.start)?;
 
+        let ipopt = sys::api()?;
         let mut point = Point::of(self.start, &declarations);
         let trap = Trap::default();
         let (status, report, last_iteration, timing) = {
             // Outlives the handle: freeing it frees what MUMPS holds.
             let _mumps = engine.lock();
             let clock = Instant::now();
-            let created = callbacks::create::<P, F>(&mut declarations);
+            let created = callbacks::create::<P, F>(ipopt, &mut declarations);
             // SAFETY: it was created just now.
-            let handle = unsafe { Handle::own(created)? };
+            let handle = unsafe { Handle::own(ipopt, created)? };
             self.configure(&handle, &engine, &declarations)?;
             handle.set_iteration_callback(Some(callbacks::iteration::<P, F>));
 
             let mut session = Session {
                 problem: &mut *self.problem,
                 on_iteration,
+                iterates: Iterates::of(ipopt, &handle, &declarations),
                 trap: &trap,
                 jacobian: &declarations.jacobian,
                 hessian: &declarations.hessian,
@@ -94,7 +99,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
             let user_data = (&raw mut session).cast();
             // SAFETY: the point has the sizes that were declared; the handle was created with the
             // callbacks of `Session<P, F>`, and the session is not touched before they are done.
-            let mut run = || Status::from(unsafe { handle.solve(point.arrays(), user_data) });
+            let mut run = || status(unsafe { handle.solve(point.arrays(), user_data) });
             let (status, report) = match engine {
                 Engine::Mumps => (run(), None),
                 Engine::Slot(solver) => {
@@ -112,7 +117,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         trap.release();
 
         let status = judge(status, report)?;
-        if !status.brings_functions() {
+        if !brings_functions(status) {
             point.evaluate(self.problem);
         }
         Ok(point.into_solution(status, last_iteration, timing, &declarations))
@@ -130,8 +135,11 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         match engine {
             Engine::Mumps => handle.set("linear_solver", &text("mumps"))?,
             Engine::Slot(solver) => {
-                slot::install()?;
+                let hsllib = slot::install()?;
                 handle.set("linear_solver", &text("ma57"))?;
+                if let Some(hsllib) = hsllib {
+                    handle.set("hsllib", &text(hsllib))?;
+                }
                 handle.set("linear_system_scaling", &text("none"))?;
                 // Equal tolerances tell Ipopt that there is nothing to raise.
                 let PivotTolerances { initial, largest } = solver
@@ -214,8 +222,8 @@ impl Point {
         last_iteration: Option<Iteration>,
         timing: Timing,
         declarations: &Declarations,
-    ) -> Solution {
-        Solution {
+    ) -> NlpSolution {
+        NlpSolution {
             status,
             constraint_violation: declarations.violation(&self.x, &self.g),
             x: self.x,
@@ -223,6 +231,7 @@ impl Point {
             g: self.g,
             multipliers: self.multipliers,
             iterations: last_iteration.map_or(0, |last| last.iteration),
+            reduced_hessian: None,
             last_iteration,
             timing,
         }

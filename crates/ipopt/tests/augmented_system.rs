@@ -1,5 +1,4 @@
 //! The system that a linear solver gets is the one that its documentation describes.
-#![cfg(ipopt_ma57_slot)]
 
 mod support;
 

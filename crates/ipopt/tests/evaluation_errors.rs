@@ -50,7 +50,7 @@ fn a_step_out_of_the_domain_is_cut() {
     }
 }
 
-fn solve_meddled(method: Method, call: usize, mischief: Mischief) -> Solution {
+fn solve_meddled(method: Method, call: usize, mischief: Mischief) -> NlpSolution {
     let mut problem = Meddling::new(Dense(Hs071), |called, count, _: &[f64]| {
         if called == method && count == call { mischief } else { Mischief::None }
     });

@@ -1,11 +1,9 @@
 //! A linear solver that panics.
-#![cfg(ipopt_ma57_slot)]
 
 mod support;
 
 use righting_ipopt::*;
 use std::panic::panic_any;
-use support::bunch_kaufman::BunchKaufman;
 use support::caught;
 use support::hock_schittkowski::*;
 

@@ -1,17 +1,16 @@
 //! Ipopt with a linear solver of one's own.
-#![cfg(ipopt_ma57_slot)]
 
 mod support;
 
 use righting_ipopt::*;
 use support::assert_close;
-use support::bunch_kaufman::BunchKaufman;
+use support::counting::Counting;
 use support::hock_schittkowski::*;
 
 fn compare_with_mumps<F: Functions>(functions: fn() -> F) {
     let options = Options { tolerance: 1e-9, ..Options::default() };
     let start = Start::at(F::START.to_vec());
-    let mut own = BunchKaufman::default();
+    let mut own = Counting::default();
     let go_on = |_: &Iteration| Control::Continue;
     let mumps = solve(&mut Dense(functions()), &options, &start, go_on).unwrap();
     let slot = solve_with(&mut Dense(functions()), &options, &start, &mut own, go_on).unwrap();
@@ -52,9 +51,9 @@ fn go_on(_: &Iteration) -> Control {
     Control::Continue
 }
 
-/// A [`BunchKaufman`] that may fail, and that keeps account of what it is asked.
+/// A [`Counting`] that may fail, and that keeps account of what it is asked.
 struct Watched<F> {
-    inner: BunchKaufman,
+    inner: Counting,
     /// Given the number of the factorisation, what it ends with instead.
     instead: F,
     tolerances: Option<PivotTolerances>,
@@ -66,7 +65,7 @@ struct Watched<F> {
 impl<F: FnMut(usize) -> Option<Factorization>> Watched<F> {
     fn new(instead: F) -> Self {
         Self {
-            inner: BunchKaufman::default(),
+            inner: Counting::default(),
             instead,
             tolerances: None,
             tolerances_set: Vec::new(),
@@ -190,7 +189,7 @@ fn the_pivot_tolerance_is_not_asked_for_in_vain() {
 
 #[test]
 fn the_restoration_phase_uses_it_too() {
-    let mut solver = BunchKaufman::default();
+    let mut solver = Counting::default();
     let options = Options { start_with_resto: true, ..Options::default() };
     let mut restored = 0;
     let solution = solve_with(&mut Dense(Hs071), &options, &start(), &mut solver, |iteration| {

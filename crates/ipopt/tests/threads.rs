@@ -3,15 +3,13 @@
 mod support;
 
 use righting_ipopt::*;
-#[cfg(ipopt_ma57_slot)]
-use support::bunch_kaufman::BunchKaufman;
 use support::hock_schittkowski::*;
 
 const THREADS: usize = 8;
 const SOLVES: usize = 20;
 
 /// Runs solves in several threads; all must give the same bits as one alone.
-fn agree(solve: impl Fn() -> Solution + Sync) {
+fn agree(solve: impl Fn() -> NlpSolution + Sync) {
     let alone = solve();
     assert_eq!(alone.status, Status::Solved);
     std::thread::scope(|scope| {
@@ -38,7 +36,6 @@ fn with_mumps_one_after_the_other() {
     agree(|| solve(&mut Dense(Hs100), &options, &start(), |_| Control::Continue).unwrap());
 }
 
-#[cfg(ipopt_ma57_slot)]
 #[test]
 fn with_a_solver_each_at_once() {
     let options = Options::default();
@@ -49,7 +46,6 @@ fn with_a_solver_each_at_once() {
     });
 }
 
-#[cfg(ipopt_ma57_slot)]
 #[test]
 fn two_solves_with_the_slot_do_overlap() {
     // Each waits within its solve until the other is within its own.

@@ -19,7 +19,7 @@ fn warm() -> Options {
     }
 }
 
-fn restart(start: &Start) -> Solution {
+fn restart(start: &Start) -> NlpSolution {
     solve(&mut Dense(Hs071), &warm(), start, |_| Control::Continue).unwrap()
 }
 

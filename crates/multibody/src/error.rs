@@ -30,10 +30,10 @@ impl fmt::Display for Part {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// The arm has no links.
-    #[error("the chain is empty: at least one link is needed")]
+    #[error("links: found none, expected at least one")]
     EmptyChain,
     /// A number of the model is NaN or infinite.
-    #[error("{part}: {quantity} is {value}, a finite number is needed")]
+    #[error("{part}: {quantity}: found {value}, expected a finite number")]
     NotFinite {
         /// Whose number.
         part: Part,
@@ -43,13 +43,13 @@ pub enum ModelError {
         value: f64,
     },
     /// The numbers are finite, a product or sum of them is not.
-    #[error("{part}: masses and lengths this large overflow")]
+    #[error("{part}: found masses or lengths whose products overflow, expected smaller ones")]
     Overflow {
         /// Where the arithmetic overflows.
         part: Part,
     },
     /// A mass below zero.
-    #[error("{part}: mass_kg is {mass_kg}, zero or more is allowed")]
+    #[error("{part}: mass_kg: found {mass_kg}, expected zero or more")]
     NegativeMass {
         /// Whose mass.
         part: Part,
@@ -57,24 +57,24 @@ pub enum ModelError {
         mass_kg: f64,
     },
     /// A base with no mass, so that the system may have none.
-    #[error("base: mass_kg is 0, more than zero is needed")]
+    #[error("base: mass_kg: found 0, expected more than zero")]
     MasslessBase,
     /// A cube with no size.
-    #[error("base: the cube's side is {side_m} m, more than zero is needed")]
+    #[error("base: side of the cube: found {side_m} m, expected more than zero")]
     CubeSide {
         /// The side length.
         side_m: f64,
     },
     /// A body with moments of inertia and no mass.
-    #[error("{part}: has an inertia but no mass")]
+    #[error("{part}: found an inertia without a mass, expected both or neither")]
     InertiaWithoutMass {
         /// Whose inertia.
         part: Part,
     },
     /// An inertia matrix that differs from its transpose.
     #[error(
-        "{part}: inertia_kg_m2[{row}][{column}] is {upper} but inertia_kg_m2[{column}][{row}] is \
-         {lower}, an inertia matrix is symmetric"
+        "{part}: inertia_kg_m2[{row}][{column}]: found {upper}, expected {lower}, the entry \
+         [{column}][{row}]: an inertia matrix is symmetric"
     )]
     NotSymmetric {
         /// Whose inertia.
@@ -90,8 +90,7 @@ pub enum ModelError {
     },
     /// An inertia matrix with a principal moment that is too small.
     #[error(
-        "{part}: the smallest principal moment of inertia_kg_m2 is {smallest_kg_m2}, it must be \
-         {}",
+        "{part}: smallest principal moment of inertia_kg_m2: found {smallest_kg_m2}, expected {}",
         if *.zero_allowed { "zero or more" } else { "more than zero" }
     )]
     NotPositive {
@@ -104,8 +103,8 @@ pub enum ModelError {
     },
     /// Principal moments that no distribution of mass has: one exceeds the sum of the others.
     #[error(
-        "{part}: the largest principal moment of inertia_kg_m2 is {largest_kg_m2}, no body's \
-         exceeds the sum of the other two, {others_kg_m2}"
+        "{part}: largest principal moment of inertia_kg_m2: found {largest_kg_m2}, expected at \
+         most the sum of the other two, {others_kg_m2}"
     )]
     TriangleInequality {
         /// Whose inertia.

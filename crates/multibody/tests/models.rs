@@ -141,15 +141,15 @@ fn huge_numbers_are_refused_not_computed_with() {
 }
 
 #[test]
-fn messages_name_part_value_and_what_is_allowed() {
+fn messages_name_part_value_and_what_is_expected() {
     assert_eq!(
         error(|_, _, links, _| links[1].mass_kg = -3.0).to_string(),
-        "link 2: mass_kg is -3, zero or more is allowed"
+        "link 2: mass_kg: found -3, expected zero or more"
     );
     let matrix = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -0.5));
     assert_eq!(
         error(|base, _, _, _| base.inertia_kg_m2 = matrix).to_string(),
-        "base: the smallest principal moment of inertia_kg_m2 is -0.5, it must be more than zero"
+        "base: smallest principal moment of inertia_kg_m2: found -0.5, expected more than zero"
     );
 }
 

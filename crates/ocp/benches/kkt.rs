@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use nalgebra::DMatrix;
-use righting_ipopt::{Factorization, LinearSolver};
+use righting_nlp::{Factorization, LinearSolver};
 use righting_ocp::kkt::StageKkt;
 
 #[path = "../tests/kkt_support/arm.rs"]

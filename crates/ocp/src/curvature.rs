@@ -1,6 +1,7 @@
 //! The second-order conditions at the end of a solve.
 
-use righting_ipopt::{Declarations, Factorization, LinearSolver, Problem, SolveError};
+use righting_ipopt::SolveError;
+use righting_nlp::{AugmentedSystem, Declarations, Factorization, LinearSolver, NlpError, Problem};
 
 use crate::error::OcpError;
 use crate::kkt::StageKkt;
@@ -62,20 +63,21 @@ impl MultipleShooting<'_> {
                 found: point.z.len(),
             });
         }
-        let system = BarrierSystem::at(self, point)?;
+        let mut system = BarrierSystem::at(self, point).map_err(SolveError::Invalid)?;
         let constraints = self.layout().constraints();
         let upward = Factorization::Regular { negative_eigenvalues: constraints };
         let mut stages = StageKkt::new(&self.stage_dims()).stop_at_excess();
         stages
-            .analyse(system.order, &system.rows, &system.columns)
+            .analyse(system.matrix.order(), system.matrix.rows(), system.matrix.columns())
             .map_err(SolveError::LinearSolver)?;
-        if stages.factor(&system.values) == upward {
+        if stages.factor(system.matrix.values()) == upward {
             return Ok(Curvature::Upward);
         }
         let mut shift = FIRST_SHIFT;
         for _ in 0..SHIFTS {
-            if stages.factor(&system.shifted(shift)) == upward {
-                return Ok(self.way_down(&system, &mut stages));
+            if stages.factor(system.shifted(shift)) == upward {
+                system.shifted(0.0);
+                return Ok(self.way_down(&system.matrix, &mut stages));
             }
             shift *= SHIFT_GROWTH;
         }
@@ -85,24 +87,24 @@ impl MultipleShooting<'_> {
     /// Inverse iteration on the reduced Hessian: with Z a basis of the constraints' null space and
     /// δ the shift, solutions with a right-hand side b of the variables alone are
     /// Z (Zᵀ(W + Σ + δ)Z)⁻¹ Zᵀ b, and turn towards the most negative curvature.
-    fn way_down(&self, system: &BarrierSystem, stages: &mut StageKkt) -> Curvature {
+    fn way_down(&self, system: &AugmentedSystem, stages: &mut StageKkt) -> Curvature {
         let layout = self.layout();
-        let mut direction = vec![0.0; system.order];
+        let mut direction = vec![0.0; system.order()];
         // No symmetry of a maneuver leaves this direction alone.
-        for (i, value) in direction[..system.variables].iter_mut().enumerate() {
+        for (i, value) in direction[..system.variables()].iter_mut().enumerate() {
             *value = (1.0 + i as f64).sin();
         }
         for _ in 0..INVERSE_ITERATIONS {
-            direction[system.variables..].fill(0.0);
+            direction[system.variables()..].fill(0.0);
             stages.solve(&mut direction);
-            let moved = &direction[..system.variables];
+            let moved = &direction[..system.variables()];
             let largest = moved.iter().fold(0.0_f64, |largest, d| largest.max(d.abs()));
             if !(largest.is_finite() && largest > 0.0) {
                 return Curvature::Flat;
             }
             direction.iter_mut().for_each(|d| *d /= largest);
         }
-        if system.curvature_along(&direction) >= 0.0 {
+        if system.primal_curvature(&direction) >= 0.0 {
             return Curvature::Flat;
         }
         let of_step = |step| &direction[layout.control(step)];
@@ -117,89 +119,46 @@ impl MultipleShooting<'_> {
     }
 }
 
-/// Ipopt's augmented system at a point, without regularisation: `[z, s, y_c, y_d]`, lower triangle.
+/// The augmented system at a point, without regularisation.
 struct BarrierSystem {
-    order: usize,
-    variables: usize,
-    slacks: usize,
-    rows: Vec<i32>,
-    columns: Vec<i32>,
-    values: Vec<f64>,
-    /// Where the diagonal of the variables starts among the values.
-    diagonal: usize,
+    matrix: AugmentedSystem,
+    /// The barrier terms Σ of variables and slacks.
+    sigma: Vec<f64>,
 }
 
 impl BarrierSystem {
-    fn at(program: &mut MultipleShooting<'_>, point: &Point) -> Result<Self, SolveError> {
+    fn at(program: &mut MultipleShooting<'_>, point: &Point) -> Result<Self, NlpError> {
         let declared = Declarations::of(program)?;
-        let multiplier = declared.multiplier_unknowns();
-        let Declarations {
-            variables,
-            constraints,
-            x_lower,
-            x_upper,
-            g_lower,
-            g_upper,
-            jacobian,
-            hessian,
-            ..
-        } = &declared;
-
+        let mut matrix = AugmentedSystem::new(&declared);
         // The shooting problem can be evaluated anywhere: its functions have no domain to leave.
-        let mut constraint_values = vec![0.0; *constraints];
+        let mut constraint_values = vec![0.0; matrix.constraints()];
         let z = &point.z;
         let _ = program.constraints(z, true, &mut constraint_values);
-        let mut jacobian_values = vec![0.0; jacobian.len()];
-        let _ = program.jacobian(z, false, &mut jacobian_values);
-        let mut values = vec![0.0; hessian.len()];
-        let _ = program.hessian(z, false, 1.0, &point.constraints, true, &mut values);
+        let _ = program.jacobian(z, false, matrix.jacobian_mut());
+        let _ = program.hessian(z, false, 1.0, &point.constraints, true, matrix.hessian_mut());
 
-        let (mut rows, mut columns) = (hessian.rows.clone(), hessian.columns.clone());
-        let diagonal = values.len();
-        for i in 0..*variables {
-            rows.push(i as i32);
-            columns.push(i as i32);
-            let barrier = curvature_of_barrier(point.lower[i], z[i] - x_lower[i], x_lower[i])
-                + curvature_of_barrier(point.upper[i], x_upper[i] - z[i], x_upper[i]);
-            values.push(barrier);
-        }
-        rows.extend(jacobian.rows.iter().map(|&row| multiplier[row as usize] as i32));
-        columns.extend(&jacobian.columns);
-        values.extend(jacobian_values);
-        let mut slacks = 0;
-        for row in declared.inequalities() {
-            let slack = (variables + slacks) as i32;
-            slacks += 1;
+        let Declarations { x_lower, x_upper, g_lower, g_upper, .. } = &declared;
+        let of_variables = (0..matrix.variables()).map(|i| {
+            curvature_of_barrier(point.lower[i], z[i] - x_lower[i], x_lower[i])
+                + curvature_of_barrier(point.upper[i], x_upper[i] - z[i], x_upper[i])
+        });
+        let of_slacks = declared.inequalities().map(|row| {
             let (force, value) = (point.constraints[row], constraint_values[row]);
-            let barrier = curvature_of_barrier(-force, value - g_lower[row], g_lower[row])
-                + curvature_of_barrier(force, g_upper[row] - value, g_upper[row]);
-            rows.extend([slack, multiplier[row] as i32]);
-            columns.extend([slack, slack]);
-            values.extend([barrier, -1.0]);
-        }
-        let order = variables + slacks + constraints;
-        Ok(Self { order, variables: *variables, slacks, rows, columns, values, diagonal })
+            curvature_of_barrier(-force, value - g_lower[row], g_lower[row])
+                + curvature_of_barrier(force, g_upper[row] - value, g_upper[row])
+        });
+        let sigma: Vec<f64> = of_variables.chain(of_slacks).collect();
+        matrix.diagonal_mut().copy_from_slice(&sigma);
+        Ok(Self { matrix, sigma })
     }
 
     /// The values with `shift` added to the diagonal of the variables.
-    fn shifted(&self, shift: f64) -> Vec<f64> {
-        let mut values = self.values.clone();
-        let diagonal = self.diagonal..self.diagonal + self.variables;
-        values[diagonal].iter_mut().for_each(|value| *value += shift);
-        values
-    }
-
-    /// dᵀ K d of variables and slacks, multipliers left out.
-    fn curvature_along(&self, direction: &[f64]) -> f64 {
-        let primal = (self.variables + self.slacks) as i32;
-        let triplets = self.rows.iter().zip(&self.columns).zip(&self.values);
-        triplets
-            .filter(|((row, column), _)| **row < primal && **column < primal)
-            .map(|((&row, &column), value)| {
-                let term = value * direction[row as usize] * direction[column as usize];
-                if row == column { term } else { 2.0 * term }
-            })
-            .sum()
+    fn shifted(&mut self, shift: f64) -> &[f64] {
+        let variables = self.matrix.variables();
+        let diagonal = self.matrix.diagonal_mut();
+        diagonal.copy_from_slice(&self.sigma);
+        diagonal[..variables].iter_mut().for_each(|value| *value += shift);
+        self.matrix.values()
     }
 }
 
@@ -215,12 +174,12 @@ fn curvature_of_barrier(force: f64, distance: f64, bound: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use num_dual::DualNum;
-    use righting_ipopt::{Control, Options};
+    use righting_nlp::{Control, Options};
 
     use super::*;
     use crate::grid::Grid;
     use crate::problem::{ControlProblem, Interval};
-    use crate::solve::Settings;
+    use crate::solve::{Optimizer, Settings};
     use crate::stage::StageFunctions;
     use crate::start::{Guess, Start};
 
@@ -248,10 +207,13 @@ mod tests {
             ipopt: Options { tolerance: 1e-9, ..Options::default() },
             ..Settings::default()
         };
-        let solution =
-            program.solve(&Start::Guess(guess), &settings, |_| Control::Continue).unwrap();
+        let start = Start::Guess(guess);
+        let solution = program.solve(&start, &settings, |_| Control::Continue).unwrap();
         assert!(solution.status.is_success(), "{:?}", solution.status);
         let curvature = program.curvature(&solution.point).unwrap();
+        assert!(curvature == Curvature::Upward || !solution.curves_upwards);
+        let by_interior = Settings { optimizer: Optimizer::Interior, ..settings };
+        let solution = program.solve(&start, &by_interior, |_| Control::Continue).unwrap();
         assert_eq!(solution.curves_upwards, curvature == Curvature::Upward);
         (curvature, solution.states.row(STEPS)[0], solution.iterations())
     }

@@ -1,4 +1,4 @@
-use righting_ipopt::{EvaluationError, Problem, TripletStructure};
+use righting_nlp::{EvaluationError, Problem, TripletStructure};
 
 /// How far exact derivatives are from finite differences along one direction, relative to the size
 /// of the derivative there.

@@ -64,13 +64,13 @@ pub use layout::{Dimensions, Layout};
 pub use nlp::MultipleShooting;
 pub use point::Point;
 pub use problem::{ControlProblem, Interval};
-pub use refine::{Rung, close_guess_settings, refine};
+pub use refine::{close_guess_settings, refine};
 pub use samples::Samples;
 pub use solution::Solution;
-pub use solve::{LinearSolver, Optimizer, Settings, UsedLinearSolver, UsedOptimizer};
+pub use solve::{Attempt, AttemptEnd, LinearSolver, Optimizer, Settings, UsedLinearSolver};
 pub use sparsity::KktSparsity;
 pub use stage::StageFunctions;
 pub use start::{Guess, Start};
 
-pub use righting_ipopt::{Control, Iteration, Options, Status, Timing};
+pub use righting_nlp::{Control, Iteration, Options, Status, Timing};
 pub use righting_symbolic::Backend;

@@ -1,4 +1,4 @@
-use righting_ipopt::{Bounds, EvaluationError, Problem, TripletStructure};
+use righting_nlp::{Bounds, EvaluationError, Problem, TripletStructure};
 
 use crate::block::{Block, lanes};
 use crate::error::OcpError;
@@ -171,8 +171,8 @@ fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
 }
 
 impl Problem for MultipleShooting<'_> {
-    fn dimensions(&self) -> righting_ipopt::Dimensions {
-        righting_ipopt::Dimensions {
+    fn dimensions(&self) -> righting_nlp::Dimensions {
+        righting_nlp::Dimensions {
             variables: self.layout.variables(),
             constraints: self.layout.constraints(),
         }

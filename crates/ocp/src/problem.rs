@@ -84,6 +84,7 @@ pub struct ControlProblem {
     pub(crate) terminal_bounds: Interval,
     pub(crate) state_bounds: Interval,
     pub(crate) control_bounds: Interval,
+    pub(crate) keeps_passive_states: bool,
 }
 
 impl ControlProblem {
@@ -106,6 +107,7 @@ impl ControlProblem {
             terminal_bounds: Interval::unbounded(0),
             state_bounds: Interval::unbounded(states),
             control_bounds: Interval::unbounded(controls),
+            keeps_passive_states: false,
         }
     }
 
@@ -153,6 +155,14 @@ impl ControlProblem {
     /// Bounds the controls of every step.
     pub fn control_bounds(mut self, bounds: Interval) -> Self {
         self.control_bounds = bounds;
+        self
+    }
+
+    /// Transcribes every state, also the passive ones, which no cost, constraint or finite bound depends
+    /// on. The optimum is the same. The way there is not: the line search weighs the defects of all
+    /// states that are transcribed.
+    pub fn keep_passive_states(mut self) -> Self {
+        self.keeps_passive_states = true;
         self
     }
 

@@ -1,11 +1,11 @@
-use righting_ipopt::{Control, Iteration, MultiplierInitialization, Options, Status};
+use righting_nlp::{Control, Iteration, MultiplierInitialization, Options, Status};
 
 use crate::error::OcpError;
 use crate::grid::Grid;
 use crate::nlp::MultipleShooting;
 use crate::point::Point;
 use crate::solution::Solution;
-use crate::solve::Settings;
+use crate::solve::{Optimizer, Settings};
 use crate::stage::StageFunctions;
 use crate::start::{Guess, Start};
 
@@ -31,6 +31,7 @@ fn between_settings(settings: &Settings) -> Settings {
     between.ipopt.tolerance = settings.ipopt.tolerance.max(BETWEEN_TOLERANCE);
     // The first barrier problem is the only one.
     between.ipopt.barrier_tol_factor = 1.0;
+    between.optimizer = Optimizer::Interior;
     between
 }
 
@@ -70,17 +71,6 @@ pub fn close_guess_settings(settings: &Settings) -> Settings {
     Settings { ipopt, ..*settings }
 }
 
-/// One solve on the way from a coarse grid to the asked one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rung {
-    /// Number of steps of its grid.
-    pub steps: usize,
-    /// How it ended.
-    pub status: Status,
-    /// Number of iterations.
-    pub iterations: usize,
-}
-
 /// Carries `point`, solved on a coarse grid over the same horizon, to `grid` by way of grids of
 /// `between` steps. Where a warm start does not converge, the motion alone is a start, as cold as any.
 /// Stops at the first grid on which that fails too: its solution is then the one returned.
@@ -95,14 +85,14 @@ pub fn refine(
     mut point: Point,
     settings: &Settings,
     mut on_iteration: impl FnMut(&Iteration) -> Control,
-) -> Result<(Solution, Vec<Rung>), OcpError> {
-    let mut rungs = Vec::with_capacity(between.len() + 1);
+) -> Result<Solution, OcpError> {
+    let mut attempts = Vec::new();
     let mut climb = |steps: usize, point: Point, warm: &Settings| -> Result<_, OcpError> {
         let mut program = MultipleShooting::new(functions, grid.with_steps(steps)?, initial)?;
         let point = point.resampled(program.initial_state(), steps);
         let mut solve = |program: &mut MultipleShooting<'_>, start: Start, settings: &Settings| {
-            let solution = program.solve(&start, settings, &mut on_iteration)?;
-            rungs.push(Rung { steps, status: solution.status, iterations: solution.iterations() });
+            let mut solution = program.solve(&start, settings, &mut on_iteration)?;
+            attempts.append(&mut solution.attempts);
             Ok(solution)
         };
         let solution = solve(&mut program, Start::Warm(point.clone()), warm)?;
@@ -118,10 +108,10 @@ pub fn refine(
     for &steps in between {
         let solution = climb(steps, point, &on_the_way)?;
         if !solution.status.is_success() {
-            return Ok((solution, rungs));
+            return Ok(Solution { attempts, ..solution });
         }
         point = solution.point;
     }
     let solution = climb(grid.steps(), point, &last_settings(settings))?;
-    Ok((solution, rungs))
+    Ok(Solution { attempts, ..solution })
 }

@@ -1,8 +1,8 @@
-use righting_ipopt::{Iteration, Status, Timing};
+use righting_nlp::{Iteration, Status, Timing};
 
 use crate::point::Point;
 use crate::samples::Samples;
-use crate::solve::{UsedLinearSolver, UsedOptimizer};
+use crate::solve::{Attempt, Optimizer, UsedLinearSolver};
 
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]
@@ -16,9 +16,11 @@ pub struct Solution {
     /// One entry per iteration, the start included.
     pub history: Vec<Iteration>,
     /// Who made the iterations.
-    pub optimizer: UsedOptimizer,
+    pub optimizer: Optimizer,
     /// What factorised the linear systems.
     pub linear_solver: UsedLinearSolver,
+    /// Every attempt that led here, in order: those given up, then the one that this is.
+    pub attempts: Vec<Attempt>,
     /// Whether the solve itself found that the Lagrangian curves upwards here, as
     /// [`MultipleShooting::curvature`](crate::MultipleShooting::curvature) does for any point.
     pub curves_upwards: bool,

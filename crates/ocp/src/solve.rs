@@ -1,5 +1,9 @@
-use righting_interior::Solved;
-use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
+use std::time::Duration;
+
+use righting_interior::InteriorError;
+use righting_ipopt::{
+    Control, Iteration, Multipliers, Options, ReducedHessian, SolveError, Status,
+};
 
 use crate::error::OcpError;
 use crate::kkt::{NodeDims, StageDims, StageKkt};
@@ -32,31 +36,48 @@ pub enum UsedLinearSolver {
     MumpsAfterStage,
 }
 
-/// Who makes the iterations.
+/// Who makes the iterations, or made them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Optimizer {
-    /// [`righting_interior`], and Ipopt from the start where that gives up; with
-    /// [`LinearSolver::Mumps`] Ipopt alone.
+    /// Ipopt.
     #[default]
-    Auto,
-    /// Ipopt alone.
     Ipopt,
+    /// [`righting_interior`], and Ipopt from the same start where that gives up. It solves with the
+    /// stage solver only: with [`LinearSolver::Mumps`] Ipopt makes the iterations.
+    Interior,
 }
 
-/// Who made the iterations of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UsedOptimizer {
-    /// [`righting_interior`].
-    Interior,
-    /// Ipopt.
-    Ipopt,
+/// One attempt to solve a program on one grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// Number of steps of the grid.
+    pub steps: usize,
+    /// Who made the iterations.
+    pub optimizer: Optimizer,
+    /// What factorised the linear systems.
+    pub linear_solver: UsedLinearSolver,
+    /// How it ended.
+    pub end: AttemptEnd,
+    /// Number of iterations; the start is not one.
+    pub iterations: usize,
+    /// Wall time.
+    pub time: Duration,
+}
+
+/// How an attempt ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AttemptEnd {
+    /// With this status.
+    Status(Status),
+    /// Without an answer, for this reason; another attempt from the same start follows.
+    GivenUp(String),
 }
 
 /// How to solve.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Ipopt's options, of either optimizer. Steps of the stage solver are taken as they are
-    /// ([`Options::fast_step_computation`]), whatever stands there.
+    /// Ipopt's options, of either optimizer. MUMPS and [`Optimizer::Interior`] have their own way with
+    /// [`Options::fast_step_computation`]: MUMPS's steps are always refined, the interior solver's never.
     pub ipopt: Options,
     /// Who makes the iterations.
     pub optimizer: Optimizer,
@@ -71,7 +92,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             ipopt: Options::default(),
-            optimizer: Optimizer::Auto,
+            optimizer: Optimizer::Ipopt,
             linear_solver: LinearSolver::Auto,
             retry_at_iteration_limit: true,
         }
@@ -109,50 +130,83 @@ impl MultipleShooting<'_> {
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
-        // Blocks of dense factors leave residuals near rounding: over the shipped maneuvers Ipopt's
-        // check of every step changes no iteration and takes a quarter of the time. Where it would
-        // have mattered, MUMPS solves again with it.
-        let options = Options { fast_step_computation: true, ..settings.ipopt.clone() };
+        let options = &settings.ipopt;
         let retry = settings.linear_solver == LinearSolver::Auto;
-        let own = match settings.optimizer {
-            Optimizer::Auto => self.solve_by_own(start, &options, stage, on_iteration),
+        let mut given_up = Vec::new();
+        let by_interior = match settings.optimizer {
+            Optimizer::Interior => {
+                self.solve_by_interior(start, options, stage, on_iteration, &mut given_up)
+            }
             Optimizer::Ipopt => None,
         };
-        let stage_solution = match own {
+        let mut solution = match by_interior {
             Some(solution) => solution,
-            None => match self.solve_by_ipopt(start, &options, stage, on_iteration) {
-                Err(SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot) if retry => {
-                    return self.solve_with_mumps(start, &settings.ipopt, on_iteration);
+            None => match self.solve_by_ipopt(start, options, stage, on_iteration) {
+                Err(error @ (SolveError::LinearSolver(_) | SolveError::NoLinearSolverSlot(_)))
+                    if retry =>
+                {
+                    given_up.push(self.given_up(Optimizer::Ipopt, &error, 0, Duration::ZERO));
+                    self.solve_with_mumps(start, options, on_iteration)?
                 }
                 outcome => outcome?,
             },
         };
-        let may_help = match stage_solution.status {
-            Status::IterationLimit => settings.retry_at_iteration_limit,
-            status => may_be_the_linear_solver(status),
-        };
-        if !(retry && may_help) {
-            return Ok(stage_solution);
+        let may_help = solution.linear_solver == UsedLinearSolver::Stage
+            && match solution.status {
+                Status::IterationLimit => settings.retry_at_iteration_limit,
+                status => may_be_the_linear_solver(status),
+            };
+        if retry && may_help {
+            given_up.append(&mut solution.attempts);
+            let again = self.solve_with_mumps(start, options, on_iteration)?;
+            solution = Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again };
         }
-        let again = self.solve_with_mumps(start, &settings.ipopt, on_iteration)?;
-        Ok(Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again })
+        solution.attempts.splice(..0, given_up);
+        Ok(solution)
     }
 
-    /// The solution of [`righting_interior`]; none where it gives up.
-    fn solve_by_own(
+    /// The solution of [`righting_interior`]; none where it gives up, whatever the reason: Ipopt finds
+    /// out whether it is the problem's.
+    fn solve_by_interior(
         &mut self,
         start: &righting_ipopt::Start,
         options: &Options,
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
+        given_up: &mut Vec<Attempt>,
     ) -> Option<Solution> {
         let mut history = Vec::new();
+        let options = Options { fast_step_computation: true, ..options.clone() };
         let record = recording(&mut history, on_iteration);
-        // Whatever the reason for giving up, Ipopt finds out whether it is the problem's.
-        let Solved { solution, curves_upwards } =
-            righting_interior::solve(self, options, start, stage, record).ok()?;
-        let used = (UsedOptimizer::Interior, UsedLinearSolver::Stage);
-        Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
+        match righting_interior::solve(self, &options, start, stage, record) {
+            Ok(solution) => {
+                let curves_upwards =
+                    solution.reduced_hessian == Some(ReducedHessian::PositiveDefinite);
+                let used = (Optimizer::Interior, UsedLinearSolver::Stage);
+                Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
+            }
+            Err(InteriorError { reason, iterations, time }) => {
+                given_up.push(self.given_up(Optimizer::Interior, &reason, iterations, time));
+                None
+            }
+        }
+    }
+
+    fn given_up(
+        &self,
+        optimizer: Optimizer,
+        reason: &dyn std::error::Error,
+        iterations: usize,
+        time: Duration,
+    ) -> Attempt {
+        Attempt {
+            steps: self.grid().steps(),
+            optimizer,
+            linear_solver: UsedLinearSolver::Stage,
+            end: AttemptEnd::GivenUp(reason.to_string()),
+            iterations,
+            time,
+        }
     }
 
     fn solve_by_ipopt(
@@ -165,7 +219,7 @@ impl MultipleShooting<'_> {
         let mut history = Vec::new();
         let record = recording(&mut history, on_iteration);
         let solution = righting_ipopt::solve_with(self, options, start, stage, record)?;
-        let used = (UsedOptimizer::Ipopt, UsedLinearSolver::Stage);
+        let used = (Optimizer::Ipopt, UsedLinearSolver::Stage);
         Ok(self.solution(solution, history, used))
     }
 
@@ -176,17 +230,19 @@ impl MultipleShooting<'_> {
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<Solution, OcpError> {
         let mut history = Vec::new();
+        // MUMPS is what is left when the stage solver's steps would not do: its own are checked.
+        let options = Options { fast_step_computation: false, ..options.clone() };
         let record = recording(&mut history, on_iteration);
-        let solution = righting_ipopt::solve(self, options, start, record)?;
-        let used = (UsedOptimizer::Ipopt, UsedLinearSolver::Mumps);
+        let solution = righting_ipopt::solve(self, &options, start, record)?;
+        let used = (Optimizer::Ipopt, UsedLinearSolver::Mumps);
         Ok(self.solution(solution, history, used))
     }
 
     fn solution(
         &self,
-        solution: righting_ipopt::Solution,
+        solution: righting_ipopt::NlpSolution,
         history: Vec<Iteration>,
-        (optimizer, linear_solver): (UsedOptimizer, UsedLinearSolver),
+        (optimizer, linear_solver): (Optimizer, UsedLinearSolver),
     ) -> Solution {
         let point = Point {
             layout: self.layout(),
@@ -196,6 +252,14 @@ impl MultipleShooting<'_> {
             upper: solution.multipliers.upper,
         };
         let (states, controls) = self.trajectory(&point);
+        let attempt = Attempt {
+            steps: self.grid().steps(),
+            optimizer,
+            linear_solver,
+            end: AttemptEnd::Status(solution.status),
+            iterations: history.last().map_or(0, |last| last.iteration),
+            time: solution.timing.total,
+        };
         Solution {
             status: solution.status,
             objective: solution.objective,
@@ -203,6 +267,7 @@ impl MultipleShooting<'_> {
             history,
             optimizer,
             linear_solver,
+            attempts: vec![attempt],
             curves_upwards: false,
             states,
             controls,

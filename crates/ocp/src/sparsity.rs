@@ -1,6 +1,6 @@
 //! Which entries of the optimality conditions' matrix can be nonzero: for pictures and for counting.
 
-use righting_ipopt::Problem;
+use righting_nlp::Problem;
 
 use crate::nlp::MultipleShooting;
 
@@ -27,7 +27,7 @@ pub struct KktSparsity {
 impl MultipleShooting<'_> {
     /// The sparsity of the KKT matrix.
     pub fn kkt_sparsity(&self) -> KktSparsity {
-        let places = |triplets: righting_ipopt::TripletStructure| {
+        let places = |triplets: righting_nlp::TripletStructure| {
             let rows = triplets.rows.into_iter().map(|row| row as usize);
             rows.zip(triplets.columns.into_iter().map(|column| column as usize)).collect()
         };

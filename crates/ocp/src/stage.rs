@@ -129,7 +129,8 @@ impl StageFunctions {
     /// Traces, differentiates and compiles `problem`.
     ///
     /// States that neither a cost nor a constraint nor a finite bound sees, directly or through
-    /// other states, are left out of the transcription and integrated afterwards.
+    /// other states, are left out of the transcription and integrated afterwards, unless the problem
+    /// [keeps them](ControlProblem::keep_passive_states).
     ///
     /// # Errors
     /// [`OcpError::Dimension`], [`OcpError::CrossedBounds`] or [`OcpError::NoStates`] when the
@@ -163,7 +164,10 @@ impl StageFunctions {
             .chain(path.iter().copied())
             .chain(terminal.iter().copied())
             .collect();
-        let active = active_states(problem, &all, &rates, &seen);
+        let active = match problem.keeps_passive_states {
+            true => (0..problem.states).collect(),
+            false => active_states(problem, &all, &rates, &seen),
+        };
         let x: Vec<Expr> = active.iter().map(|&i| all[i]).collect();
         let active_rates: Vec<Expr> = active.iter().map(|&i| rates[i]).collect();
         let full_ode = match active.len() == problem.states {

@@ -1,4 +1,4 @@
-use righting_ipopt::TripletStructure;
+use righting_nlp::TripletStructure;
 
 use crate::layout::Layout;
 use crate::stage::{MatrixOutput, NodeFunction, StageFunctions};

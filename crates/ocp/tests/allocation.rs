@@ -5,7 +5,7 @@ mod counting;
 
 use counting::allocations;
 use num_dual::DualNum;
-use righting_ipopt::Problem;
+use righting_nlp::Problem;
 use righting_ocp::*;
 
 #[test]

@@ -6,7 +6,7 @@ mod kkt_support;
 
 use counting::allocations;
 use kkt_support::arm::ArmSystem;
-use righting_ipopt::{Factorization, LinearSolver};
+use righting_nlp::{Factorization, LinearSolver};
 use righting_ocp::kkt::StageKkt;
 
 #[test]

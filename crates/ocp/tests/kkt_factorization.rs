@@ -3,20 +3,22 @@
 mod kkt_support;
 
 use kkt_support::arm::ArmSystem;
-use kkt_support::{Random, Recipe, System, backward_error, node, norm};
-use righting_ipopt::{Factorization, LinearSolver};
+use kkt_support::{Recipe, System, backward_error, node, norm};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+use righting_nlp::{Factorization, LinearSolver};
 use righting_ocp::kkt::{NodeDims, StageDims, StageKkt};
 
 /// Factorises and solves; inertia must be exact, the solution accurate. Returns the negative eigenvalues.
 #[track_caller]
-fn check(system: &System, mut solver: StageKkt, random: &mut Random) -> usize {
+fn check(system: &System, mut solver: StageKkt, random: &mut ChaCha8Rng) -> usize {
     let order = system.offsets.order;
     solver.analyse(order, &system.rows, &system.columns).unwrap();
     let (negative_eigenvalues, smallest) = system.inertia();
     assert!(smallest > 1e-13, "the test system itself is nearly singular: {smallest:e}");
     assert_eq!(solver.factor(&system.values), Factorization::Regular { negative_eigenvalues });
     for _ in 0..2 {
-        let rhs: Vec<f64> = (0..order).map(|_| random.signed()).collect();
+        let rhs: Vec<f64> = (0..order).map(|_| random.random_range(-1.0..1.0)).collect();
         let mut solution = rhs.clone();
         solver.solve(&mut solution);
         let error = backward_error(system, &solution, &rhs);
@@ -36,7 +38,7 @@ fn check(system: &System, mut solver: StageKkt, random: &mut Random) -> usize {
 }
 
 #[track_caller]
-fn check_all(system: &System, random: &mut Random) -> usize {
+fn check_all(system: &System, random: &mut ChaCha8Rng) -> usize {
     let negative = check(system, StageKkt::new(&system.dims), random);
     check(system, StageKkt::scalar(&system.dims), random);
     let shuffled = system.shuffled(random);
@@ -55,7 +57,7 @@ fn constraints(nodes: &[NodeDims]) -> usize {
 
 #[test]
 fn convex_systems_have_one_negative_eigenvalue_a_constraint() {
-    let random = &mut Random::new(1);
+    let random = &mut ChaCha8Rng::seed_from_u64(1);
     for (states, controls, path, steps) in
         [(3, 2, 0, 4), (8, 2, 5, 3), (18, 7, 8, 2), (5, 1, 3, 6), (9, 8, 1, 2), (17, 9, 2, 2)]
     {
@@ -69,7 +71,7 @@ fn convex_systems_have_one_negative_eigenvalue_a_constraint() {
 /// Rows of integrators are stored by diagonals, the attitude's in full.
 #[test]
 fn arms_mix_integrators_with_full_rows() {
-    let random = &mut Random::new(10);
+    let random = &mut ChaCha8Rng::seed_from_u64(10);
     for (joints, path) in [(2, 2), (4, 0), (7, 8)] {
         let arm = ArmSystem::new(joints, path, 3);
         let mut system = System::empty(arm.dims);
@@ -81,11 +83,16 @@ fn arms_mix_integrators_with_full_rows() {
 /// With more than one eigenvalue too many the solver may stop, and says one too many.
 #[test]
 fn stopping_at_excess_reports_every_excess() {
-    let random = &mut Random::new(11);
+    let random = &mut ChaCha8Rng::seed_from_u64(11);
     let mut excesses = 0;
     for round in 0..60 {
-        let mut nodes = uniform(1 + random.below(6), 1 + random.below(4), random.below(3), 5);
-        nodes[5].equalities = random.below(2);
+        let mut nodes = uniform(
+            random.random_range(1..=6),
+            random.random_range(1..=4),
+            random.random_range(0..3),
+            5,
+        );
+        nodes[5].equalities = random.random_range(0..2);
         let convexity = [0.0, 1.0, 2.0, 6.0][round % 4];
         let recipe = Recipe { convexity, density: 0.9, ..Recipe::default() };
         let system = System::random(nodes.clone(), recipe, random);
@@ -106,14 +113,18 @@ fn stopping_at_excess_reports_every_excess() {
 
 #[test]
 fn indefinite_systems_are_counted_exactly() {
-    let random = &mut Random::new(2);
+    let random = &mut ChaCha8Rng::seed_from_u64(2);
     let mut wrong_inertia = 0;
     for round in 0..60 {
-        let nodes =
-            uniform(1 + random.below(6), 1 + random.below(4), random.below(4), 1 + random.below(5));
+        let nodes = uniform(
+            random.random_range(1..=6),
+            random.random_range(1..=4),
+            random.random_range(0..4),
+            random.random_range(1..=5),
+        );
         let recipe = Recipe {
             convexity: [0.0, 0.5, 1.0, -1.0][round % 4],
-            density: 0.3 + 0.7 * random.unit(),
+            density: 0.3 + 0.7 * random.random::<f64>(),
             scaled_rows: round % 3 == 0,
             negative_slacks: if round % 5 == 0 { 0.5 } else { 0.0 },
             delta_d: if round % 7 == 0 { 0.3 } else { 0.0 },
@@ -127,13 +138,17 @@ fn indefinite_systems_are_counted_exactly() {
 
 #[test]
 fn regularised_constraints_are_exact() {
-    let random = &mut Random::new(3);
+    let random = &mut ChaCha8Rng::seed_from_u64(3);
     for round in 0..40 {
-        let nodes: Vec<NodeDims> =
-            uniform(1 + random.below(9), random.below(4), random.below(4), 1 + random.below(5))
-                .into_iter()
-                .map(|n| NodeDims { equalities: random.below(2), ..n })
-                .collect();
+        let nodes: Vec<NodeDims> = uniform(
+            random.random_range(1..=9),
+            random.random_range(0..4),
+            random.random_range(0..4),
+            random.random_range(1..=5),
+        )
+        .into_iter()
+        .map(|n| NodeDims { equalities: random.random_range(0..2), ..n })
+        .collect();
         let delta = [1e-8, 1e-4, 0.3, 5.0][round % 4];
         let recipe = Recipe {
             convexity: if round % 3 == 0 { 4.0 } else { 0.0 },
@@ -149,7 +164,7 @@ fn regularised_constraints_are_exact() {
 
 #[test]
 fn nodes_may_differ() {
-    let random = &mut Random::new(4);
+    let random = &mut ChaCha8Rng::seed_from_u64(4);
     let nodes = vec![
         node(2, 1, 1, 2),
         node(4, 3, 0, 1),
@@ -168,7 +183,7 @@ fn nodes_may_differ() {
 
 #[test]
 fn degenerate_sizes() {
-    let random = &mut Random::new(5);
+    let random = &mut ChaCha8Rng::seed_from_u64(5);
     for nodes in [
         uniform(3, 2, 1, 1),
         uniform(3, 0, 2, 3),
@@ -193,7 +208,7 @@ fn degenerate_sizes() {
 /// earlier nodes.
 #[test]
 fn terminal_equalities_wait_for_earlier_controls() {
-    let random = &mut Random::new(6);
+    let random = &mut ChaCha8Rng::seed_from_u64(6);
     for (states, controls, steps) in [(4, 2, 3), (6, 1, 8), (9, 4, 4)] {
         let mut nodes = uniform(states, controls, 1, steps);
         nodes[steps].equalities = states;
@@ -210,7 +225,7 @@ fn terminal_equalities_wait_for_earlier_controls() {
 /// when an earlier state couples to them.
 #[test]
 fn controls_without_cost_wait_for_earlier_states() {
-    let random = &mut Random::new(7);
+    let random = &mut ChaCha8Rng::seed_from_u64(7);
     for _ in 0..10 {
         let nodes = uniform(3, 2, 0, 4);
         let mut system = System::random(nodes.clone(), Recipe::default(), random);
@@ -229,7 +244,7 @@ fn controls_without_cost_wait_for_earlier_states() {
 
 #[test]
 fn singular_systems_are_reported() {
-    let random = &mut Random::new(8);
+    let random = &mut ChaCha8Rng::seed_from_u64(8);
     let nodes = uniform(4, 2, 1, 3);
     let zero_where = |system: &mut System, condition: &dyn Fn(usize, usize) -> bool| {
         for t in 0..system.rows.len() {
@@ -291,14 +306,14 @@ fn singular_systems_are_reported() {
 
 #[test]
 fn values_that_are_not_finite_fail() {
-    let random = &mut Random::new(9);
+    let random = &mut ChaCha8Rng::seed_from_u64(9);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for round in 0..40 {
             let system = System::random(uniform(3, 2, 1, 3), Recipe::default(), random);
             let mut solver = StageKkt::new(&system.dims);
             solver.analyse(system.offsets.order, &system.rows, &system.columns).unwrap();
             let mut values = system.values.clone();
-            let place = random.below(values.len());
+            let place = random.random_range(0..values.len());
             values[place] = bad;
             let outcome = solver.factor(&values);
             assert_eq!(outcome, Factorization::Failed, "{bad} at {place} in round {round}");

@@ -3,7 +3,7 @@
 mod kkt_support;
 
 use kkt_support::arm::ArmSystem;
-use righting_ipopt::{Factorization, LinearSolver};
+use righting_nlp::{Factorization, LinearSolver};
 use righting_ocp::kkt::{KktStructureError, StageDims, StageKkt};
 
 // u_0 = 0, x_1 = 1 2, u_1 = 3, x_2 = 4 5, slacks 6 7, defects 8 9 and 10 11, inequalities 12 13.

@@ -2,7 +2,7 @@
 //! depend on neither lanes nor backends.
 
 use num_dual::DualNum;
-use righting_ipopt::Problem;
+use righting_nlp::Problem;
 use righting_ocp::kkt::{StageDims, StageKkt};
 use righting_ocp::*;
 use righting_symbolic::Expr;
@@ -163,7 +163,7 @@ fn the_width_of_the_factorisation_changes_rounding_only() {
     let mut nodes = StageDims::uniform(4, 2, 1, STEPS).nodes().to_vec();
     nodes[STEPS].equalities = 4;
     let mut narrow = StageKkt::scalar(&StageDims::new(nodes));
-    let start = righting_ipopt::Start::at(vec![0.0; program.layout().variables()]);
+    let start = righting_nlp::Start::at(vec![0.0; program.layout().variables()]);
     let options = Options::default();
     let narrow = righting_ipopt::solve_with(&mut program, &options, &start, &mut narrow, |_| {
         Control::Continue

@@ -8,10 +8,10 @@ use std::fmt::Write;
 
 use jiff::SignedDuration;
 use jiff::civil::DateTime;
-use righting_maneuver::{Node, Solution, Trajectory};
+use righting_results::{Node, Solution, Trajectory};
+use righting_scenario::error::Mismatch;
 
-use crate::ReportError;
-use crate::asked;
+use crate::{ReportError, asked};
 
 /// What a message says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,15 +133,16 @@ fn value(keyword: &'static str, value: &str) -> Result<String, ReportError> {
     let trimmed = value.trim();
     let is_plain = trimmed.chars().all(|c| c == ' ' || c.is_ascii_graphic());
     if trimmed.is_empty() || trimmed.len() > LONGEST_VALUE || !is_plain {
-        let allowed = "1 to 200 printable ASCII characters";
-        return Err(ReportError::Value { keyword, value: value.to_owned(), allowed });
+        let expected = "1 to 200 printable ASCII characters";
+        let mismatch = Mismatch::new(format_args!("{value:?}"), expected);
+        return Err(ReportError::Value { keyword, mismatch });
     }
     Ok(trimmed.to_ascii_uppercase())
 }
 
 /// A comment of any text in printable ASCII.
 fn plain(comment: &str) -> String {
-    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg").replace('\u{2212}', "-");
+    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg");
     let is_plain = |&c: &char| c == ' ' || c.is_ascii_graphic();
     spelt.chars().filter(is_plain).take(LONGEST_VALUE).collect()
 }

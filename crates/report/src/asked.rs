@@ -1,17 +1,27 @@
 //! What a scenario asks for, in words and as an attitude.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
-use righting_maneuver::file::{ManeuverType, Scenario};
+use righting_scenario::file::{ManeuverType, Scenario};
 
-use crate::number::short;
+use crate::number::{drawn, short};
 
 /// The maneuver in one phrase: "slew of 20° about [0.74, 0.02, 0.68] in 30 s".
 pub(crate) fn phrase(scenario: &Scenario) -> String {
+    phrase_with(scenario, short)
+}
+
+/// [`phrase`] as figures show it.
+pub(crate) fn phrase_drawn(scenario: &Scenario) -> String {
+    phrase_with(scenario, drawn)
+}
+
+fn phrase_with(scenario: &Scenario, number: fn(f64) -> String) -> String {
     let maneuver = &scenario.maneuver;
-    let duration = short(scenario.horizon.duration_s);
+    let triple = |values: [f64; 3]| format!("[{}]", values.map(number).join(", "));
+    let duration = number(scenario.horizon.duration_s);
     match maneuver.kind {
         ManeuverType::Slew => {
-            let angle = short(maneuver.angle_deg.unwrap_or(f64::NAN));
+            let angle = number(maneuver.angle_deg.unwrap_or(f64::NAN));
             let axis = triple(maneuver.axis.unwrap_or([f64::NAN; 3]));
             format!("slew of {angle}° about {axis} in {duration} s")
         }
@@ -33,8 +43,4 @@ pub(crate) fn target(scenario: &Scenario) -> Option<UnitQuaternion<f64>> {
 /// The rotation of a scalar-first quaternion of any length.
 pub(crate) fn unit([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
-}
-
-fn triple(values: [f64; 3]) -> String {
-    format!("[{}]", values.map(short).join(", "))
 }

@@ -1,13 +1,12 @@
 //! `attitude.svg`: how the base turns.
 
 use nalgebra::UnitQuaternion;
-use righting_maneuver::{Node, Solution, Trajectory};
+use righting_results::{Node, Solution, Trajectory};
 
-use crate::asked;
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
-use crate::style;
+use crate::{asked, style};
 
 const PANEL_SIZE: [f64; 2] = [620.0, 150.0];
 /// Below these heights a curve counts as constant.
@@ -65,7 +64,7 @@ pub(crate) fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel
     };
     let errors: Vec<f64> =
         nodes.iter().map(|n| asked::unit(n.attitude).angle_to(&target).to_degrees()).collect();
-    let note = format!("{}° at the end", short(*errors.last().unwrap_or(&f64::NAN)));
+    let note = format!("{}° at the end", drawn(*errors.last().unwrap_or(&f64::NAN)));
     let error = Panel {
         heading: "Angle to the target attitude".to_owned(),
         axis_label: "Error [deg]",
@@ -114,12 +113,12 @@ fn spin_panel(nodes: &[Node], bound_deg_s: Option<f64>) -> Panel {
     let spin = spin_deg_s(nodes);
     let (first, last) = (spin[0], spin[spin.len() - 1]);
     let bound = bound_deg_s
-        .map(|b| format!(", dashed: least with the arm at rest, {}", short(b)))
+        .map(|b| format!(", dashed: least with the arm at rest, {}", drawn(b)))
         .unwrap_or_default();
     Panel {
         heading: "Magnitude of the angular rate".to_owned(),
         axis_label: "Rate [deg/s]",
-        note: format!("{} to {} deg/s{bound}", short(first), short(last)),
+        note: format!("{} to {} deg/s{bound}", drawn(first), drawn(last)),
         curves: vec![magnitude(spin)],
         rules: bound_deg_s.map(|value| Rule { kind: RuleKind::Limit, value }).into_iter().collect(),
         least_span: LEAST_RATE_SPAN_DEG_S,

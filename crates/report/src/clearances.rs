@@ -1,11 +1,12 @@
 //! `clearances.svg`: how near links come to the base and to each other.
 
-use righting_maneuver::collision::Between;
-use righting_maneuver::histories::ClearanceHistory;
-use righting_maneuver::{Histories, Solution, Trajectory};
+use righting_analysis::Histories;
+use righting_analysis::histories::ClearanceHistory;
+use righting_results::{Solution, Trajectory};
+use righting_scenario::collision::Between;
 
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
@@ -64,7 +65,7 @@ fn panel(heading: &str, mut histories: Vec<&ClearanceHistory>) -> Panel {
         axis_label: "Distance [m]",
         note: format!(
             "least margin {} m",
-            short(histories.first().map_or(f64::NAN, |h| margin(h)))
+            drawn(histories.first().map_or(f64::NAN, |h| margin(h)))
         ),
         curves: histories.iter().enumerate().map(curve).collect(),
         rules: histories

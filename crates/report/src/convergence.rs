@@ -1,6 +1,6 @@
 //! `convergence.svg`: how the optimizer got there.
 
-use righting_maneuver::{IterationRecord, Solution};
+use righting_results::{IterationRecord, Solution};
 
 use crate::figure::{Figure, heading};
 use crate::panel::{Curve, Panel, Scale};

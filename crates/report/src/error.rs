@@ -2,25 +2,29 @@
 
 use std::path::PathBuf;
 
+use righting_scenario::error::Mismatch;
+
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A file could not be written.
     #[error(transparent)]
-    File(#[from] righting_maneuver::Error),
+    File(#[from] righting_scenario::Error),
     /// A value is not one that the format of an export takes.
-    #[error("{keyword}: {value:?} is not allowed: {allowed}")]
+    #[error("{keyword}: {mismatch}")]
     Value {
         /// The keyword it is for.
         keyword: &'static str,
-        /// The value.
-        value: String,
-        /// What is allowed.
-        allowed: &'static str,
+        /// The value, and what the format takes.
+        mismatch: Mismatch,
     },
     /// The time tags of an attitude ephemeris would not increase or leave the calendar.
     #[error(
-        "time tags: a step of {step_s} s from {epoch} is not allowed: at least 1e-9 s, up to the year 9999"
+        "time tags: {}",
+        Mismatch::new(
+            format_args!("a step of {step_s} s from {epoch}"),
+            "at least 1e-9 s, up to the year 9999"
+        )
     )]
     TimeTags {
         /// The step of the trajectory, s.

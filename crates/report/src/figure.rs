@@ -1,11 +1,10 @@
 //! A page of panels over one horizontal axis.
 
-use righting_maneuver::Solution;
+use righting_results::Solution;
 
-use crate::asked;
 use crate::panel::{Panel, Placement};
-use crate::style;
 use crate::svg::{Anchor, Svg};
+use crate::{asked, style};
 
 /// Panels in a grid, row by row, sharing one horizontal axis.
 pub(crate) struct Figure {
@@ -70,11 +69,15 @@ impl Figure {
 
 /// Title and subtitle of a maneuver's figures: what it is, what was asked, whether it is proven.
 pub(crate) fn heading(solution: &Solution) -> (String, String) {
-    let verdict = match (solution.status.is_acceptable(), solution.verification.passed) {
+    let asked = asked::phrase_drawn(&solution.scenario);
+    (solution.scenario.name.clone(), format!("{asked}, {}", verdict_in_short(solution)))
+}
+
+/// Whether a plan is proven, in a word or two.
+pub(crate) fn verdict_in_short(solution: &Solution) -> &'static str {
+    match (solution.status.is_acceptable(), solution.verification.passed) {
         (_, true) => "verified",
         (true, false) => "NOT VERIFIED",
         (false, false) => "NOT SOLVED",
-    };
-    let asked = asked::phrase(&solution.scenario);
-    (solution.scenario.name.clone(), format!("{asked}, {verdict}"))
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use righting_maneuver::files;
+use righting_scenario::file_io;
 
 use crate::ReportError;
 use crate::png::PngPainter;
@@ -42,12 +42,12 @@ impl FigureWriter {
     ) -> Result<Vec<PathBuf>, ReportError> {
         let file = directory.join(name);
         let png_file = file.with_extension("png");
-        files::remove(&png_file)?;
-        files::replace(&file, |writer| writer.write_all(svg.as_bytes()))?;
+        file_io::remove(&png_file)?;
+        file_io::replace(&file, |writer| writer.write_all(svg.as_bytes()))?;
         let Some(painter) = &self.painter else { return Ok(vec![file]) };
         let failed = |problem| ReportError::Png { path: png_file.clone(), problem };
         let png = painter.paint(svg).map_err(failed)?;
-        files::replace(&png_file, |writer| writer.write_all(&png))?;
+        file_io::replace(&png_file, |writer| writer.write_all(&png))?;
         Ok(vec![file, png_file])
     }
 }

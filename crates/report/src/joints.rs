@@ -1,10 +1,10 @@
 //! `joints.svg`: what the arm does.
 
-use righting_maneuver::file::{Link, Scenario, SystemReference};
-use righting_maneuver::{Solution, Trajectory};
+use righting_results::{Solution, Trajectory};
+use righting_scenario::file::{Link, Scenario, SystemReference};
 
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
@@ -76,7 +76,7 @@ fn panel(
     let note = match limits_deg {
         [Some(low), Some(high)] if low == -high => {
             let peak = values.iter().fold(0.0, |peak: f64, v| peak.max(v.abs()));
-            format!("peak {} of {}", short(peak), short(high))
+            format!("peak {} of {}", drawn(peak), drawn(high))
         }
         _ => String::new(),
     };

@@ -1,14 +1,14 @@
 //! Figures, pages, summaries and exports of solved maneuvers.
 //!
-//! Everything here reads results, a [`Solution`](righting_maneuver::Solution) with its
-//! [`Trajectory`](righting_maneuver::Trajectory), and computes none: what a figure shows is what the
+//! Everything here reads results, a [`Solution`](righting_results::Solution) with its
+//! [`Trajectory`](righting_results::Trajectory), and computes none: what a figure shows is what the
 //! files hold.
 //!
 //! ```no_run
 //! use std::path::Path;
 //!
 //! let folder = Path::new("out/demo");
-//! let plan = righting_maneuver::verify_directory(folder)?;
+//! let plan = righting_verifier::verify_directory(folder)?;
 //! let figure = righting_report::attitude_svg(&plan.solution, &plan.trajectory);
 //! righting_report::FigureWriter::svg().write(folder, "attitude.svg", &figure)?;
 //! print!("{}", righting_report::verification_summary(&plan.solution));
@@ -30,7 +30,7 @@ mod clearances;
 mod convergence;
 mod envelope;
 mod error;
-mod errors;
+mod facts;
 mod figure;
 mod figure_writer;
 mod joints;
@@ -38,7 +38,7 @@ mod maneuvers;
 mod momentum;
 mod npz;
 mod number;
-mod numbers;
+mod open_loop_errors;
 mod page;
 mod panel;
 #[cfg_attr(not(feature = "png"), path = "no_png.rs")]
@@ -61,13 +61,13 @@ pub use clearances::clearances_svg;
 pub use convergence::convergence_svg;
 pub use envelope::{EnvelopeOutlines, envelope_svg};
 pub use error::ReportError;
-pub use errors::errors_svg;
 pub use figure_writer::FigureWriter;
 pub use joints::joints_svg;
 pub use maneuvers::maneuvers_svg;
 pub use momentum::momentum_svg;
 pub use npz::npz;
 pub use number::short;
+pub use open_loop_errors::open_loop_errors_svg;
 pub use page::{report_html, slews_html};
 pub use power::{PowerComparison, power_svg, power_table};
 pub use power_trade::{PowerTrade, power_trade_svg};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use righting_maneuver::file::{ManeuverType, Scenario};
-use righting_maneuver::{Solution, Trajectory};
+use righting_results::{Solution, Trajectory};
+use righting_scenario::file::{ManeuverType, Scenario};
 
 use crate::asked;
 use crate::attitude::{rate_panel, slew_panels};

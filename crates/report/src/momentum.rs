@@ -1,10 +1,11 @@
 //! `momentum.svg`: what the arm takes from the base, and that the sum stays.
 
 use nalgebra::Vector3;
-use righting_maneuver::{Histories, Solution, Trajectory};
+use righting_analysis::Histories;
+use righting_results::{Solution, Trajectory};
 
 use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::number::drawn;
 use crate::panel::{Curve, Panel};
 use crate::style;
 
@@ -54,7 +55,7 @@ fn panel(
     Panel {
         heading: heading.to_owned(),
         axis_label,
-        note: format!("at most {}", short(largest)),
+        note: format!("at most {}", drawn(largest)),
         curves: components(vectors),
         least_span,
         ..Panel::default()

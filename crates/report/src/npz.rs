@@ -2,7 +2,7 @@
 
 use std::io::{Cursor, Write};
 
-use righting_maneuver::{Interval, Node, Trajectory};
+use righting_results::{Interval, Node, Trajectory};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, result::ZipError};
 

@@ -1,7 +1,7 @@
 //! One set of axes: curves over time, or another quantity, with the values they must keep to.
 
 use crate::axis::Range;
-use crate::number::short;
+use crate::number::drawn;
 use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
 
@@ -240,7 +240,7 @@ impl Axes {
         let is_whole = |value: f64| (value - value.round()).abs() < 1e-9;
         let few = self.value.span() < 2.0;
         let ticks = ticks.into_iter().filter(|(value, _)| few || is_whole(*value));
-        let label = |value: f64| if few { short(10f64.powf(value)) } else { power_of_ten(value) };
+        let label = |value: f64| if few { drawn(10f64.powf(value)) } else { power_of_ten(value) };
         ticks.map(|(value, _)| (value, label(value))).collect()
     }
 
@@ -302,7 +302,7 @@ impl Axes {
                 Scale::Linear => rule.value,
                 Scale::Logarithmic => 10f64.powf(rule.value),
             };
-            let label = format!("{} {arrow} off scale", short(value));
+            let label = format!("{} {arrow} off scale", drawn(value));
             let at = [right - RULE_LABEL_INSET, baseline];
             svg.text(at, Anchor::End, style::SMALL_SIZE, color, &label);
         }

@@ -2,11 +2,14 @@
 
 use std::fmt::Write;
 
-use righting_maneuver::power::{Accounting, Instant};
-use righting_maneuver::{PowerProfile, Solution, WheelArray};
+use righting_analysis::PowerProfile;
+use righting_analysis::power::{Accounting, Instant};
+use righting_results::Solution;
+use righting_scenario::WheelArray;
 
-use crate::figure::{Figure, heading};
-use crate::number::short;
+use crate::asked;
+use crate::figure::{Figure, heading, verdict_in_short};
+use crate::number::{drawn, short};
 use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
@@ -88,9 +91,9 @@ fn drawn_panel(comparison: PowerComparison<'_>) -> Panel {
     let one_wheel =
         wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min);
     Panel {
-        heading: format!("Power drawn, \u{3b7} = {}", short(efficiency)),
+        heading: format!("Power drawn, \u{3b7} = {}", drawn(efficiency)),
         axis_label: "Power [W]",
-        note: format!("dashed: one wheel, {} W", short(one_wheel)),
+        note: format!("dashed: one wheel, {} W", drawn(one_wheel)),
         curves: curves.map(curve).collect(),
         rules: vec![Rule { kind: RuleKind::Reference, value: one_wheel }],
         least_span: LEAST_POWER_SPAN_W,
@@ -123,8 +126,9 @@ pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> Stri
         text.write_fmt(arguments).expect("a string takes all that is written to it");
         text.push('\n');
     };
-    let (title, subtitle) = heading(solution);
-    line(format_args!("{title}: {subtitle}"));
+    let scenario = &solution.scenario;
+    let asked = asked::phrase(scenario);
+    line(format_args!("{}: {asked}, {}", scenario.name, verdict_in_short(solution)));
     line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "peak [W]", "mean [W]", "energy [J]"));
     let mut row = |name: &str, numbers: [f64; 3]| {
         let [peak, mean, energy] = numbers.map(short);

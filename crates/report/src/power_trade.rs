@@ -1,6 +1,6 @@
 //! What a maneuver's duration does to its power.
 
-use righting_maneuver::power::{Accounting, Consumption};
+use righting_analysis::power::{Accounting, Consumption};
 
 use crate::figure::Figure;
 use crate::panel::{Curve, Panel, Rule, RuleKind, Scale};

@@ -1,14 +1,13 @@
 //! `reach.svg`: what each tried duration or angle costs, and what it misses.
 
-use righting_maneuver::file::Scenario;
-use righting_maneuver::reach::{Quantity, Reach, Try};
-use righting_maneuver::verifier::ATTITUDE_ERROR;
+use righting_planner::reach::{Quantity, Reach, Try};
+use righting_scenario::file::Scenario;
+use righting_verifier::ATTITUDE_ERROR;
 
-use crate::asked;
 use crate::axis::Range;
-use crate::number::short;
-use crate::style;
+use crate::number::drawn;
 use crate::svg::{Anchor, Stroke, Svg};
+use crate::{asked, style};
 
 const SIZE: [f64; 2] = [620.0, 190.0];
 const DOT_RADIUS: f64 = 3.6;
@@ -26,7 +25,7 @@ pub fn reach_svg(scenario: &Scenario, reach: &Reach) -> String {
         _ => format!(", {without} without a plan are not shown"),
     };
     let title = &scenario.name;
-    let subtitle = format!("Reach of the {}{missing}", asked::phrase(scenario));
+    let subtitle = format!("Reach of the {}{missing}", asked::phrase_drawn(scenario));
     let left = style::MARGIN + style::AXIS_LABEL_WIDTH + style::TICK_LABEL_WIDTH;
     let top = style::MARGIN + style::TITLE_SIZE + style::LABEL_SIZE + 14.0;
     let row_step = style::HEADING_HEIGHT + SIZE[1] + style::ROW_GAP;
@@ -64,7 +63,7 @@ pub fn reach_svg(scenario: &Scenario, reach: &Reach) -> String {
             (chart, |tried| tried.terminal.attitude_error)
         }
         Some(bound) => {
-            let heading = format!("Angular rate left (dashed: its bound, {} deg/s)", short(bound));
+            let heading = format!("Angular rate left (dashed: its bound, {} deg/s)", drawn(bound));
             let chart = chart(1.0, heading, "Rate [deg/s]", false, vec![bound]);
             (chart, |tried| tried.terminal.angular_rate_deg_s)
         }
@@ -195,7 +194,7 @@ fn decades(range: Range) -> Vec<(f64, String)> {
         .flat_map(|decade| multiples.iter().map(move |multiple| (decade, *multiple)))
         .map(|(decade, multiple)| {
             let value = multiple * 10f64.powi(decade);
-            (value.log10(), short(value))
+            (value.log10(), drawn(value))
         })
         .filter(|(value, _)| range.contains(*value))
         .collect()

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_maneuver::file::Scenario;
-use righting_maneuver::reach::{Quantity, Reach, StartedFrom, Try};
+use righting_planner::reach::{Quantity, Reach, StartedFrom, Try};
+use righting_scenario::file::Scenario;
 
 use crate::asked;
 use crate::number::short;
@@ -98,7 +98,7 @@ fn table(reach: &Reach) -> Vec<String> {
 fn start(tried: &Try) -> String {
     match (tried.start, tried.neighbor) {
         (StartedFrom::Neighbor, Some(neighbor)) => format!("plan of {neighbor}"),
-        (StartedFrom::Random, _) => "random".to_owned(),
+        (StartedFrom::LowDiscrepancy, _) => "random".to_owned(),
         _ => "cold".to_owned(),
     }
 }

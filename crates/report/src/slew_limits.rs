@@ -4,7 +4,7 @@ use righting_sweep::{Kind, SlewLimit, Slews};
 
 use crate::axis::Range;
 use crate::chart::{Chart, Labels};
-use crate::number::short;
+use crate::number::drawn;
 use crate::style;
 use crate::svg::Stroke;
 
@@ -75,7 +75,7 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
         }
         chart.curve(&points, Stroke { color, width: style::CURVE_WIDTH, dash: "" });
         if let (Some(&[_, last]), Some((_, column))) = (points.last(), series) {
-            let text = format!("{} {}", column.name, short(*value));
+            let text = format!("{} {}", column.name, drawn(*value));
             named = chart.name(last, named, color, &text);
         }
     }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use righting_sweep::Slews;
 
 use crate::axis::Range;
-use crate::number::short;
+use crate::number::drawn;
 use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
 
@@ -121,7 +121,7 @@ impl View {
             svg.line(self.place(&(-radius * axis)), self.place(&(radius * axis)), rule);
             let [px, py] = self.place(&(1.1 * radius * axis));
             let label =
-                if name == "z" { format!("z  {}\u{b0}", short(radius)) } else { name.to_owned() };
+                if name == "z" { format!("z  {}\u{b0}", drawn(radius)) } else { name.to_owned() };
             let at = [px, py + 0.35 * style::LABEL_SIZE];
             svg.text(at, Anchor::Middle, style::LABEL_SIZE, style::INK, &label);
         }
@@ -174,7 +174,7 @@ fn draw_legend(
     }
     for (value, _) in costs.ticks(5.0) {
         let x = left + bar * (value - costs.low) / costs.span();
-        let label = short(10f64.powf(value));
+        let label = drawn(10f64.powf(value));
         svg.text([x, top + 24.0], Anchor::Middle, style::SMALL_SIZE, style::INK, &label);
     }
     let at = [left + 0.5 * bar, top + 39.0];

@@ -1,7 +1,7 @@
 //! `sparsity.svg`: where the KKT matrix of the nonlinear program can be nonzero.
 
-use righting_maneuver::Solution;
 use righting_ocp::KktSparsity;
+use righting_results::Solution;
 
 use crate::figure::heading;
 use crate::style;

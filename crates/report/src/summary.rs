@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_maneuver::file::{Formulation, ManeuverType, SystemReference};
-use righting_maneuver::{Check, Sense, Solution, Status};
+use righting_results::{Check, Sense, Solution, Status};
+use righting_scenario::file::{Formulation, ManeuverType, SystemReference};
 
 use crate::asked;
 use crate::number::short;

@@ -48,7 +48,7 @@ fn a_limit_far_off_is_named_rather_than_left_out() {
 #[test]
 fn joints_without_limits_are_drawn_without_them() {
     let (mut solution, trajectory) = common::result("slew", 1, 100);
-    let righting_maneuver::file::SystemReference::Inline(system) = &mut solution.scenario.system
+    let righting_scenario::file::SystemReference::Inline(system) = &mut solution.scenario.system
     else {
         panic!("results hold their system inline");
     };
@@ -81,7 +81,7 @@ fn hostile_names_and_broken_numbers_still_make_figures() {
     nodes.iter_mut().for_each(|node| node.joint_rates_rad_s[1] = f64::NAN);
     nodes[12].joint_angles_rad[1] = 1e308;
     let trajectory =
-        righting_maneuver::Trajectory::new(nodes, trajectory.intervals().to_vec()).unwrap();
+        righting_results::Trajectory::new(nodes, trajectory.intervals().to_vec()).unwrap();
     for svg in [attitude_svg(&solution, &trajectory), joints_svg(&solution, &trajectory)] {
         roxmltree::Document::parse(&svg).expect("well-formed");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");

@@ -4,8 +4,8 @@ mod common;
 
 use std::path::PathBuf;
 
-use righting_maneuver::Status;
 use righting_report::{status_phrase, summary, verification_summary};
+use righting_results::Status;
 
 #[test]
 fn a_verified_slew_says_asked_reached_proven_and_where() {
@@ -15,7 +15,7 @@ fn a_verified_slew_says_asked_reached_proven_and_where() {
         "made_up: slew of 20° about [0, 0, 2] in 30 s, 600 steps",
         "some_arm, 4 joints, reduced form",
         "solved after 19 iterations and 0.45 s in all: objective 9.068500e-4",
-        "attitude error 2.0e−5 (0.0023°)",
+        "attitude error 2.0e-5 (0.0023°)",
         "Verified: an independent integration agrees and every limit holds",
         "ok  joint angle   45.8  ≤ 50 deg    4.13  joint 2 at 12.3 s",
         "out/demo/trajectory.csv",
@@ -28,7 +28,7 @@ fn a_verified_slew_says_asked_reached_proven_and_where() {
 fn a_detumble_says_how_close_to_the_bound_it_came() {
     let (solution, _) = common::result("detumble", 4, 600);
     let text = summary(&solution, &[]);
-    assert!(text.contains("detumble from [0, 0, −20] °/s"), "{text}");
+    assert!(text.contains("detumble from [0, 0, -20] °/s"), "{text}");
     assert!(
         text.contains("12.1 °/s, 39.3 % less (at least 9.22 °/s with the arm at rest)"),
         "{text}"

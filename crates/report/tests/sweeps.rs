@@ -1,6 +1,6 @@
 //! Figures of sweeps: of well-formed XML, with a mark a slew.
 
-use righting_report::{errors_svg, slew_limits_svg, slews_html, slews_svg};
+use righting_report::{open_loop_errors_svg, slew_limits_svg, slews_html, slews_svg};
 use righting_sweep::{CaseId, CaseStatus, Column, Flown, Kind, SlewLimit, SlewPoint, Slews};
 use serde_json::json;
 
@@ -105,12 +105,12 @@ fn limits_of_many_random_values_are_put_together() {
 #[test]
 fn errors_are_summed_up_by_their_quantiles() {
     let errors: Vec<f64> = (1..=100).map(|i| 0.01 * f64::from(i)).collect();
-    let svg = errors_svg("errors", &errors).expect("there are some");
+    let svg = open_loop_errors_svg("errors", &errors).expect("there are some");
     assert!(svg.contains("half end within 0.5°, 95 % within 0.95°, all within 1°"), "{svg}");
     assert_eq!(count(&svg, "svg"), 1);
-    assert_eq!(errors_svg("errors", &[f64::NAN]), None);
+    assert_eq!(open_loop_errors_svg("errors", &[f64::NAN]), None);
     let many: Vec<f64> = (1..=100_001).map(|i| 1e-5 * f64::from(i)).collect();
-    let svg = errors_svg("errors", &many).expect("there are some");
+    let svg = open_loop_errors_svg("errors", &many).expect("there are some");
     assert!(svg.contains("100001 plans") && svg.len() < 100_000, "{}", svg.len());
-    assert!(errors_svg("errors", &[0.0, 0.0]).is_some_and(|svg| count(&svg, "path") > 0));
+    assert!(open_loop_errors_svg("errors", &[0.0, 0.0]).is_some_and(|svg| count(&svg, "path") > 0));
 }

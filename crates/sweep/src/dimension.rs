@@ -1,7 +1,7 @@
 //! One dimension of a sweep, checked: fields that change together.
 
-use righting_maneuver::Error;
-use righting_maneuver::json::{Place, shown};
+use righting_scenario::Error;
+use righting_scenario::json::{Place, shown};
 use serde_json::{Value, json};
 
 use crate::field_path::FieldPath;
@@ -59,9 +59,8 @@ impl Dimension {
             if let Some(first) = variations.first()
                 && first.len() != variation.len()
             {
-                let settings = format!("{} settings", variation.len());
-                let allowed = format!("{}, as the first has", first.len());
-                return Err(place.refuse(settings, allowed));
+                let expected = format!("{} settings, as the first has", first.len());
+                return Err(place.refuse(variation.len(), expected));
             }
             variations.push(variation);
         }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub enum SweepError {
     /// The sweep file or its scenario is wrong.
     #[error(transparent)]
-    Input(#[from] righting_maneuver::Error),
+    Input(#[from] righting_scenario::Error),
     /// The folder has records of an earlier run, and nobody asked to go on from there.
     #[error("{}: has {records} records of an earlier run", folder.display())]
     Occupied {

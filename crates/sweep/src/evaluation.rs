@@ -4,10 +4,11 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use righting_maneuver::{
-    Plan, Scenario, Status, Terminal, Trajectory, plan_with_threads, simulate, verify,
-};
 use righting_ocp::Control;
+use righting_planner::{Planned, Planner};
+use righting_results::{Status, Trajectory};
+use righting_scenario::Scenario;
+use righting_verifier::simulate;
 use serde_json::Value;
 
 use crate::outcome::{CaseStatus, Flown, Outcome, Trouble};
@@ -48,46 +49,41 @@ impl Evaluator {
         (outcome, started.elapsed())
     }
 
-    /// Plans and verifies; the plan too, where it passed.
+    /// Plans and verifies; the trajectory too, where it passed.
     fn planned_and_verified(
         &self,
         scenario: &Scenario,
     ) -> Result<(Outcome, Option<Trajectory>), Outcome> {
-        let plan = self.plan(scenario)?;
-        let terminal = Terminal::reached(scenario, &plan.trajectory);
-        let verification = plan.status.is_acceptable().then(|| verify(scenario, &plan.trajectory));
-        let verified = verification.as_ref().is_some_and(|verification| verification.passed);
-        let failed = verification.as_ref().and_then(|verification| verification.failures().next());
+        let Planned { solution, trajectory } = self.plan(scenario)?;
+        let verified = solution.verification.passed;
+        let failed = solution.verification.failures().next();
         let reason = match failed {
             Some(check) => Some(check.to_string()),
             None if verified => None,
-            None => Some(plan.notes.first().cloned().unwrap_or_default()),
+            None => solution.notes.first().cloned(),
         };
         let outcome = Outcome {
-            status: CaseStatus::Optimizer(plan.status),
+            status: CaseStatus::Optimizer(solution.status),
             verified,
-            attitude_error: terminal.attitude_error,
-            final_rate_deg_s: terminal.angular_rate_deg_s,
-            joint_rate_deg_s: terminal.joint_rate_deg_s,
-            objective: plan.objective,
-            iterations: plan.iterations,
+            attitude_error: solution.terminal.attitude_error,
+            final_rate_deg_s: solution.terminal.angular_rate_deg_s,
+            joint_rate_deg_s: solution.terminal.joint_rate_deg_s,
+            objective: solution.objective,
+            iterations: solution.iterations,
             reason: reason.filter(|reason| !reason.is_empty()),
         };
-        Ok((outcome, verified.then_some(plan.trajectory)))
+        Ok((outcome, verified.then_some(trajectory)))
     }
 
-    fn plan(&self, scenario: &Scenario) -> Result<Plan, Outcome> {
-        let started = Instant::now();
+    fn plan(&self, scenario: &Scenario) -> Result<Planned, Outcome> {
         // Cases are what runs in parallel, not the starts of one.
-        let plan = plan_with_threads(scenario, NonZeroUsize::MIN, &mut |_| {
-            if started.elapsed() < self.time_limit { Control::Continue } else { Control::Stop }
-        });
-        match plan {
+        let mut planner = Planner::new().threads(NonZeroUsize::MIN).time_limit(self.time_limit);
+        match planner.plan(scenario, &mut |_| Control::Continue) {
             Err(error) => Err(Outcome::of_trouble(Trouble::NotPlanned, error.to_string())),
-            Ok(plan) if plan.status == Status::Interrupted => {
+            Ok(planned) if planned.solution.status == Status::TimeLimit => {
                 Err(Outcome::out_of_time(self.time_limit.as_secs_f64()))
             }
-            Ok(plan) => Ok(plan),
+            Ok(planned) => Ok(planned),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The shape of sweep files, before anything in them is believed.
 
-use righting_maneuver::file::Scenario;
+use righting_scenario::file::Scenario;
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};

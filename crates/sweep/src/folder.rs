@@ -9,8 +9,8 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use righting_maneuver::files;
-use righting_maneuver::json::{Document, Place};
+use righting_scenario::file_io;
+use righting_scenario::json::{Document, FileKind, Place};
 use serde::{Deserialize, Serialize};
 
 use crate::case::CaseId;
@@ -68,7 +68,7 @@ impl SweepFolder {
             cases: sweep.len() as u64,
             sweep: sweep.resolved().clone(),
         };
-        files::replace(&self.path.join(MANIFEST), |writer| {
+        file_io::replace(&self.path.join(MANIFEST), |writer| {
             serde_json::to_writer_pretty(&mut *writer, &manifest)?;
             writeln!(writer)
         })?;
@@ -81,7 +81,7 @@ impl SweepFolder {
     /// [`SweepError::Input`] if there is none or it is damaged.
     pub fn sweep(&self) -> Result<Sweep, SweepError> {
         let path = self.path.join(MANIFEST);
-        let document = Document::read(&path, "a planned sweep")?;
+        let document = Document::read(&path, FileKind::PlannedSweep)?;
         let manifest: Manifest = document.decode()?;
         let place = Place::root(&path);
         if manifest.schema != SCHEMA {

@@ -29,7 +29,7 @@
 //! let case = sweep.case(5);
 //! assert_eq!(case.values[1], 20);
 //! assert_eq!(sweep.scenario(&case)["maneuver"]["angle_deg"], 20);
-//! # Ok::<(), righting_maneuver::Error>(())
+//! # Ok::<(), righting_scenario::Error>(())
 //! ```
 #![forbid(unsafe_code)]
 

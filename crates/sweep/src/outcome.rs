@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use righting_maneuver::Status;
+use righting_results::Status;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// What a case came to, the same whenever and wherever it is computed.

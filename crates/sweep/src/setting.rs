@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use righting_maneuver::Error;
-use righting_maneuver::envelope::fibonacci;
-use righting_maneuver::json::{Bounds, Place, shown};
+use righting_analysis::envelope::fibonacci;
+use righting_scenario::Error;
+use righting_scenario::json::{Bounds, Place, shown};
 use serde_json::{Value, json};
 
-use crate::draw::Stream;
+use crate::draw::Draws;
 use crate::file;
 
 const FINITE: Bounds = Bounds::Between(-1e300, 1e300);
@@ -34,9 +34,9 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Settings {
     Listed(Vec<Value>),
-    Uniform { low: f64, high: f64, count: usize, stream: Stream },
-    Normal { mean: f64, deviation: f64, count: usize, stream: Stream },
-    Directions { count: usize, stream: Stream },
+    Uniform { low: f64, high: f64, count: usize, draws: Draws },
+    Normal { mean: f64, deviation: f64, count: usize, draws: Draws },
+    Directions { count: usize, draws: Draws },
 }
 
 impl Settings {
@@ -49,22 +49,21 @@ impl Settings {
         const RULES: &str = "`values`, `grid`, `fibonacci`, `uniform`, `normal` or `directions`";
         let file::Dimension { values, grid, fibonacci, uniform, normal, directions, .. } =
             dimension;
-        let given = [
-            values.is_some(),
-            grid.is_some(),
-            fibonacci.is_some(),
-            uniform.is_some(),
-            normal.is_some(),
-            directions.is_some(),
+        let rules = [
+            ("`values`", values.is_some()),
+            ("`grid`", grid.is_some()),
+            ("`fibonacci`", fibonacci.is_some()),
+            ("`uniform`", uniform.is_some()),
+            ("`normal`", normal.is_some()),
+            ("`directions`", directions.is_some()),
         ];
-        match given.into_iter().filter(|&given| given).count() {
-            0 => return Err(place.missing(format!("one of {RULES}"))),
-            1 => {}
-            several => {
-                return Err(place.refuse(format!("{several} of them"), format!("one of {RULES}")));
-            }
+        let given: Vec<&str> =
+            rules.into_iter().filter_map(|(rule, is_given)| is_given.then_some(rule)).collect();
+        if given.len() != 1 {
+            let found = if given.is_empty() { "none".to_owned() } else { given.join(" and ") };
+            return Err(place.refuse(found, format_args!("one of {RULES}")));
         }
-        let stream = |seed: u64| Stream::new(seed, field);
+        let draws = |seed: u64| Draws::new(seed, field);
         if let Some(values) = values {
             listed(values, &place.key("values"))
         } else if let Some(grid) = grid {
@@ -77,22 +76,22 @@ impl Settings {
             let low = place.key("low").within(uniform.low, FINITE)?;
             let high = place.key("high").within(uniform.high, FINITE)?;
             if low >= high {
-                return Err(place.key("high").refuse(high, format!("a number above {low}")));
+                return Err(place.key("high").refuse(high, format_args!("a number above {low}")));
             }
             let count = count_of(uniform.count, MOST_DRAWN, &place.key("count"))?;
-            Ok(Self::Uniform { low, high, count, stream: stream(uniform.seed) })
+            Ok(Self::Uniform { low, high, count, draws: draws(uniform.seed) })
         } else if let Some(normal) = normal {
             let place = place.key("normal");
             Ok(Self::Normal {
                 mean: place.key("mean").within(normal.mean, FINITE)?,
                 deviation: place.key("deviation").within(normal.deviation, DEVIATION)?,
                 count: count_of(normal.count, MOST_DRAWN, &place.key("count"))?,
-                stream: stream(normal.seed),
+                draws: draws(normal.seed),
             })
         } else if let Some(directions) = directions {
             let place = place.key("directions").key("count");
             let count = count_of(directions.count, MOST_DRAWN, &place)?;
-            Ok(Self::Directions { count, stream: stream(directions.seed) })
+            Ok(Self::Directions { count, draws: draws(directions.seed) })
         } else {
             unreachable!("one of them is given")
         }
@@ -124,11 +123,11 @@ impl Settings {
     pub fn get(&self, index: usize) -> Value {
         match self {
             Self::Listed(values) => values[index].clone(),
-            Self::Uniform { low, high, stream, .. } => json!(stream.uniform(index, *low, *high)),
-            Self::Normal { mean, deviation, stream, .. } => {
-                json!(stream.normal(index, *mean, *deviation))
+            Self::Uniform { low, high, draws, .. } => json!(draws.uniform(index, *low, *high)),
+            Self::Normal { mean, deviation, draws, .. } => {
+                json!(draws.normal(index, *mean, *deviation))
             }
-            Self::Directions { stream, .. } => json!(stream.direction(index)),
+            Self::Directions { draws, .. } => json!(draws.direction(index)),
         }
     }
 }
@@ -151,11 +150,15 @@ fn count_of(count: u64, most: f64, place: &Place) -> Result<usize, Error> {
 }
 
 fn listed(values: &[Value], place: &Place) -> Result<Settings, Error> {
-    count_of(values.len() as u64, MOST_LISTED, place)?;
+    if !(1..=MOST_LISTED as usize).contains(&values.len()) {
+        let expected = format!("1 to {MOST_LISTED}");
+        return Err(place.refuse(format!("{} values", values.len()), expected));
+    }
     let mut seen = HashSet::new();
     for (index, value) in values.iter().enumerate() {
         if !seen.insert(value.to_string()) {
-            return Err(place.index(index).refuse(shown(value), "each value once"));
+            let again = format!("{} again", shown(value));
+            return Err(place.index(index).refuse(again, "each value once"));
         }
     }
     Ok(Settings::Listed(values.to_vec()))

@@ -49,7 +49,7 @@ impl FromStr for Shard {
         });
         parsed
             .filter(|shard| shard.of <= MOST && (1..=shard.of).contains(&shard.number))
-            .ok_or_else(|| format!("a shard is i/n with i from 1 to n and n up to {MOST}"))
+            .ok_or_else(|| format!("expected i/n with i from 1 to n and n up to {MOST}"))
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use righting_maneuver::json::{Bounds, Document, Place, shown};
-use righting_maneuver::{Error, Scenario};
+use righting_scenario::json::{Bounds, Document, FileKind, Place, shown};
+use righting_scenario::{Error, Scenario};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -41,7 +41,7 @@ impl Sweep {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        Self::from_document(&Document::read(file, "a sweep file")?, file)
+        Self::from_document(&Document::read(file, FileKind::Sweep)?, file)
     }
 
     /// Reads and checks a sweep from its text; `file` names it in errors, and relative paths start
@@ -50,7 +50,7 @@ impl Sweep {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        Self::from_document(&Document::parse(file, text)?, file)
+        Self::from_document(&Document::parse(file, text, FileKind::Sweep)?, file)
     }
 
     fn from_document(document: &Document, file: &Path) -> Result<Self, Error> {
@@ -108,7 +108,8 @@ impl Sweep {
         for (column, (at, variation)) in self.variations(place).enumerate() {
             let setting = &first.values[column];
             variation.apply(&mut scenario, setting).map_err(|problem| {
-                at.key("field").refuse(shown(&json!(variation.path.as_str())), problem)
+                let expected = format!("a field that the settings fit ({problem})");
+                at.key("field").refuse(shown(&json!(variation.path.as_str())), expected)
             })?;
         }
         match Scenario::parse(&scenario.to_string(), file) {
@@ -118,8 +119,8 @@ impl Sweep {
                     .variations(place)
                     .find(|(_, variation)| about(variation.path.as_str()))
                     .map_or(place.key("vary"), |(at, _)| at);
-                let allowed = format!("the first case is no scenario: {field}");
-                Err(culprit.refuse("a field or setting here", allowed))
+                Err(culprit
+                    .because(format_args!("{} of the first case", field.path), field.problem))
             }
             Err(error) => Err(error),
             Ok(_) => Ok(()),
@@ -247,8 +248,11 @@ fn base(reference: &ScenarioReference, file: &Path, place: &Place) -> Result<Sce
         ScenarioReference::File(path) => {
             Scenario::read(&file.parent().unwrap_or(Path::new("")).join(path)).map_err(|error| {
                 match error {
-                    Error::Field { .. } | Error::NotJson { .. } => error,
-                    unreadable => place.refuse(shown(&json!(path)), unreadable.to_string()),
+                    Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
+                    unreadable => place.refuse(
+                        shown(&json!(path)),
+                        format_args!("the path of a scenario file ({unreadable})"),
+                    ),
                 }
             })
         }
@@ -271,7 +275,8 @@ fn columns(dimensions: &[Dimension], place: &Place) -> Result<Vec<Column>, Error
             let name = shown(&json!(variation.name));
             let field = variation.path.as_str();
             if columns.iter().any(|column| column.field == field) {
-                return Err(place.index(i).refuse(shown(&json!(field)), "each field once"));
+                let again = format!("{} again", shown(&json!(field)));
+                return Err(place.index(i).refuse(again, "each field once"));
             }
             let is_taken = RESULT_COLUMNS.contains(&variation.name.as_str());
             if is_taken || columns.iter().any(|column| column.name == variation.name) {

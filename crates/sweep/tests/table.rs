@@ -70,6 +70,32 @@ fn rows_stand_in_the_order_of_the_plan_and_a_success_beats_a_crash() {
 }
 
 #[test]
+fn records_of_other_draws_are_of_no_case() {
+    let drawn = |seed: u64| {
+        let uniform = format!(r#"{{ "low": 0.9, "high": 1.1, "count": 3, "seed": {seed} }}"#);
+        let vary = format!(
+            r#"{{ "field": "horizon.duration_s", "relative": true, "uniform": {uniform} }}"#
+        );
+        let scenario = "../../scenarios/slew_2dof.json";
+        let text =
+            format!(r#"{{ "name": "drawn", "scenario": "{scenario}", "vary": [ {vary} ] }}"#);
+        Sweep::parse(&text, Path::new("drawn.json")).unwrap()
+    };
+    let place = tempfile::tempdir().unwrap();
+    let folder = SweepFolder::at(place.path());
+    let sweep = drawn(1);
+    folder.plan(&sweep, "0").unwrap();
+    let mut journal = folder.journal(Shard::WHOLE).unwrap();
+    journal.append(&record(&drawn(2), 0, success(9.0))).unwrap();
+    journal.append(&record(&sweep, 1, success(1.0))).unwrap();
+    let table = Table::read(&folder).unwrap();
+    let recorded: Vec<bool> = table.rows().iter().map(Option::is_some).collect();
+    assert_eq!((recorded, table.strangers), (vec![false, true, false], 1));
+    let done = folder.done(Shard::WHOLE).unwrap();
+    assert!(done.contains(&sweep.case(1).id) && !done.contains(&sweep.case(0).id));
+}
+
+#[test]
 fn failures_and_limits_are_summed_up() {
     let (_place, folder) = folder();
     let table = Table::read(&folder).unwrap();

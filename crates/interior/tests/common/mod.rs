@@ -4,9 +4,8 @@
 #[path = "../../../ipopt/tests/support/mod.rs"]
 pub mod support;
 
-use righting_interior::{GivesUp, Solved};
+use righting_interior::InteriorError;
 use righting_ipopt::*;
-use support::bunch_kaufman::BunchKaufman;
 
 /// Every iteration, and the end.
 pub type Run<T, E> = (Vec<Iteration>, Result<T, E>);
@@ -20,7 +19,7 @@ pub fn ipopt(
     mut problem: impl Problem,
     options: &Options,
     start: &Start,
-) -> Run<Solution, SolveError> {
+) -> Run<NlpSolution, SolveError> {
     let mut iterations = Vec::new();
     let mut solver = BunchKaufman::default();
     let outcome = solve_with(&mut problem, options, start, &mut solver, |iteration| {
@@ -30,7 +29,11 @@ pub fn ipopt(
     (iterations, outcome)
 }
 
-pub fn own(mut problem: impl Problem, options: &Options, start: &Start) -> Run<Solved, GivesUp> {
+pub fn own(
+    mut problem: impl Problem,
+    options: &Options,
+    start: &Start,
+) -> Run<NlpSolution, InteriorError> {
     let mut iterations = Vec::new();
     let mut solver = BunchKaufman::default();
     let outcome =

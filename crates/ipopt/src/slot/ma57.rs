@@ -1,10 +1,9 @@
-//! MA57 as Ipopt 3.11 sees it. Which of its results Ipopt reads is in `righting_ipopt_sys::hsl`.
+//! MA57 as Ipopt sees it. Which of its results Ipopt reads is in `righting_ipopt_sys::hsl`.
 
 use super::Slot;
 use crate::Factorization;
-use righting_ipopt_sys::hsl::{LSL_setMA57, ipfint};
+use righting_ipopt_sys::hsl::{SetMa57, ipfint};
 use std::slice::{from_raw_parts, from_raw_parts_mut};
-use std::sync::Once;
 
 /// `info(1)` of a singular matrix.
 const SINGULAR: ipfint = 4;
@@ -19,12 +18,9 @@ mod info {
     pub(super) const NEGATIVE_EIGENVALUES: usize = 23;
 }
 
-pub(super) fn install() {
-    static INSTALLED: Once = Once::new();
-    // SAFETY: the functions have the types that the loader declares, and live for ever.
-    INSTALLED.call_once(|| unsafe {
-        LSL_setMA57(Some(analyse), Some(factor), Some(solve), Some(enlarge), Some(defaults));
-    });
+pub(super) fn install(set: SetMa57) {
+    // SAFETY: the functions have the types that `set` declares, and live for ever.
+    unsafe { set(Some(analyse), Some(factor), Some(solve), Some(enlarge), Some(defaults)) };
 }
 
 unsafe extern "C" fn defaults(cntl: *mut f64, icntl: *mut ipfint) {

@@ -1,7 +1,7 @@
 //! Problems with published solutions, and a linear solver that shares nothing with MUMPS.
 #![allow(dead_code)]
 
-pub mod bunch_kaufman;
+pub mod counting;
 pub mod hock_schittkowski;
 pub mod meddling;
 pub mod quadratic;
@@ -10,7 +10,7 @@ use righting_ipopt::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Options and a start at `x`, to the end.
-pub fn solve_from<P: Problem>(problem: &mut P, x: &[f64], options: &Options) -> Solution {
+pub fn solve_from<P: Problem>(problem: &mut P, x: &[f64], options: &Options) -> NlpSolution {
     solve(problem, options, &Start::at(x.to_vec()), |_| Control::Continue).unwrap()
 }
 
@@ -26,7 +26,7 @@ pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
 
 /// The payload of the panic that `solve` must not have swallowed.
 #[track_caller]
-pub fn caught<T>(solve: impl FnOnce() -> Result<Solution, SolveError>) -> T
+pub fn caught<T>(solve: impl FnOnce() -> Result<NlpSolution, SolveError>) -> T
 where
     T: Copy + 'static,
 {

@@ -1,6 +1,6 @@
 //! The solver as Ipopt sees it.
 
-use righting_ipopt::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
+use righting_nlp::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
 
 use super::dims::{Layout, StageDims};
 use super::elimination::Breakdown;

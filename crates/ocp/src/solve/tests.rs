@@ -152,12 +152,13 @@ fn both_optimizers_go_the_same_way() {
     let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
     let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
     let mut solved = |optimizer| {
-        let settings = Settings { optimizer, ..Settings::default() };
+        let ipopt = Options { fast_step_computation: true, ..Options::default() };
+        let settings = Settings { ipopt, optimizer, ..Settings::default() };
         program.solve(&start, &settings, |_| Control::Continue).unwrap()
     };
-    let (own, ipopt) = (solved(Optimizer::Auto), solved(Optimizer::Ipopt));
-    assert_eq!(own.optimizer, UsedOptimizer::Interior);
-    assert_eq!(ipopt.optimizer, UsedOptimizer::Ipopt);
+    let (own, ipopt) = (solved(Optimizer::Interior), solved(Optimizer::Ipopt));
+    assert_eq!(own.optimizer, Optimizer::Interior);
+    assert_eq!(ipopt.optimizer, Optimizer::Ipopt);
     assert_eq!((own.status, own.iterations()), (ipopt.status, ipopt.iterations()));
     assert!(own.iterations() > 10);
     for (own, ipopt) in own.history.iter().zip(&ipopt.history) {
@@ -167,4 +168,43 @@ fn both_optimizers_go_the_same_way() {
     }
     let differences = own.point.z.iter().zip(&ipopt.point.z).map(|(a, b)| (a - b).abs());
     assert!(differences.fold(0.0, f64::max) < 1e-6);
+}
+
+#[test]
+fn an_attempt_that_is_given_up_is_kept_with_its_reason() {
+    let functions = StageFunctions::compile(&pendulum()).unwrap();
+    let grid = Grid::new(10.0, STEPS).unwrap();
+    let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
+    let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let ipopt = Options { max_cpu_time: 100.0, ..Options::default() };
+    let settings = Settings { ipopt, optimizer: Optimizer::Interior, ..Settings::default() };
+    let solution = program.solve(&start, &settings, |_| Control::Continue).unwrap();
+    assert_eq!((solution.status, solution.optimizer), (Status::Solved, Optimizer::Ipopt));
+    let [given_up, delivered] = &solution.attempts[..] else { panic!("{:?}", solution.attempts) };
+    assert_eq!((given_up.steps, given_up.optimizer), (STEPS, Optimizer::Interior));
+    assert_eq!(given_up.end, AttemptEnd::GivenUp("a time limit is not supported".to_owned()));
+    assert_eq!(delivered.end, AttemptEnd::Status(Status::Solved));
+    assert_eq!(
+        (delivered.optimizer, delivered.iterations),
+        (Optimizer::Ipopt, solution.iterations())
+    );
+
+    let mut failing = Failing {
+        stage: StageKkt::new(&program.stage_dims()),
+        sound: 3,
+        is_sound: true,
+        trouble: Trouble::Singular,
+    };
+    let settings = Settings { ipopt: Options::default(), ..settings };
+    let start = program.ipopt_start(&start).unwrap();
+    let solution = program
+        .solve_in_stages(&start, &settings, &mut failing, &mut |_| Control::Continue)
+        .unwrap();
+    assert_eq!(solution.linear_solver, UsedLinearSolver::MumpsAfterStage);
+    let ends: Vec<_> = solution.attempts.iter().map(|a| (a.optimizer, a.linear_solver)).collect();
+    let (stage, mumps) = (UsedLinearSolver::Stage, UsedLinearSolver::Mumps);
+    let by_stage = [(Optimizer::Interior, stage), (Optimizer::Ipopt, stage)];
+    assert_eq!(ends, [&by_stage[..], &[(Optimizer::Ipopt, mumps)]].concat());
+    assert!(matches!(solution.attempts[0].end, AttemptEnd::GivenUp(_)), "{:?}", solution.attempts);
+    assert!(solution.attempts[0].iterations > 0);
 }

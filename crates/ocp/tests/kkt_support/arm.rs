@@ -1,5 +1,7 @@
 //! Augmented systems with the structure and the triplet order of the arm problems.
 
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
 use righting_ocp::kkt::StageDims;
 
 /// An augmented system shaped like the reduced problem of an arm: attitude (4 dense rows), joint
@@ -24,13 +26,8 @@ impl ArmSystem {
         let inequality = defect + steps * states;
         let order = inequality + steps * path;
         let mut system = Self { dims, order, rows: vec![], columns: vec![], values: vec![] };
-        let mut seed = 1_u64;
-        let mut noise = || {
-            seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let mut noise = || random.random_range(-1.0..1.0);
         // Hessian of the Lagrangian, by rows of the lower triangle.
         for k in 0..=steps {
             let first = if k == 0 { control(0) } else { state(k) };

@@ -4,39 +4,9 @@
 pub mod arm;
 
 use nalgebra::{DMatrix, DVector};
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
 use righting_ocp::kkt::{NodeDims, StageDims};
-
-/// A small deterministic generator (SplitMix64).
-#[derive(Debug, Clone)]
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Uniform in [−1, 1).
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
-    }
-
-    pub fn below(&mut self, bound: usize) -> usize {
-        (self.bits() % bound as u64) as usize
-    }
-}
 
 /// First index of each kind of unknown at each node, counted here independently of the solver.
 #[derive(Debug, Clone)]
@@ -126,12 +96,13 @@ impl System {
     }
 
     /// A random system: lower triangle, with explicit diagonals in every multiplier row.
-    pub fn random(nodes: Vec<NodeDims>, recipe: Recipe, random: &mut Random) -> Self {
+    pub fn random(nodes: Vec<NodeDims>, recipe: Recipe, random: &mut ChaCha8Rng) -> Self {
         let mut system = Self::empty(StageDims::new(nodes.clone()));
         let at = system.offsets.clone();
-        let coefficient = |random: &mut Random, plain: f64| {
+        let coefficient = |random: &mut ChaCha8Rng, plain: f64| {
             if recipe.scaled_rows {
-                plain * (0.5 + 1.5 * random.unit()) * random.signed().signum()
+                let size = random.random_range(0.5..2.0);
+                plain * if random.random() { size } else { -size }
             } else {
                 plain
             }
@@ -141,19 +112,20 @@ impl System {
             for i in own.clone() {
                 for j in own.start..=i {
                     let shift = if i == j { recipe.convexity } else { 0.0 };
-                    system.push(i, j, random.signed() + shift);
+                    system.push(i, j, random.random_range(-1.0..1.0) + shift);
                 }
             }
             let next_states = nodes.get(k + 1).map_or(0, |next| next.states);
-            let jacobian = |first: usize, count: usize, random: &mut Random, system: &mut Self| {
-                for row in first..first + count {
-                    for column in own.clone() {
-                        if random.unit() < recipe.density {
-                            system.push(row, column, random.signed());
+            let jacobian =
+                |first: usize, count: usize, random: &mut ChaCha8Rng, system: &mut Self| {
+                    for row in first..first + count {
+                        for column in own.clone() {
+                            if random.random::<f64>() < recipe.density {
+                                system.push(row, column, random.random_range(-1.0..1.0));
+                            }
                         }
                     }
-                }
-            };
+                };
             jacobian(at.defect[k], next_states, random, &mut system);
             jacobian(at.equality[k], node.equalities, random, &mut system);
             jacobian(at.inequality[k], node.inequalities, random, &mut system);
@@ -166,8 +138,8 @@ impl System {
                 system.push(at.equality[k] + i, at.equality[k] + i, -recipe.delta_c);
             }
             for i in 0..node.inequalities {
-                let sign = if random.unit() < recipe.negative_slacks { -1.0 } else { 1.0 };
-                let sigma = sign * 10_f64.powf(3.0 * random.signed());
+                let sign = if random.random::<f64>() < recipe.negative_slacks { -1.0 } else { 1.0 };
+                let sigma = sign * 10_f64.powf(3.0 * random.random_range(-1.0..1.0));
                 system.push(at.slack[k] + i, at.slack[k] + i, sigma);
                 let value = coefficient(random, -1.0);
                 system.push(at.inequality[k] + i, at.slack[k] + i, value);
@@ -178,15 +150,15 @@ impl System {
     }
 
     /// The same matrix with its triplets in random order, some transposed and some split in two.
-    pub fn shuffled(&self, random: &mut Random) -> Self {
+    pub fn shuffled(&self, random: &mut ChaCha8Rng) -> Self {
         let mut triplets = vec![];
         for t in 0..self.rows.len() {
             let (mut row, mut column) = (self.rows[t], self.columns[t]);
-            if random.unit() < 0.5 {
+            if random.random::<f64>() < 0.5 {
                 std::mem::swap(&mut row, &mut column);
             }
-            if random.unit() < 0.3 {
-                let part = random.signed();
+            if random.random::<f64>() < 0.3 {
+                let part = random.random_range(-1.0..1.0);
                 triplets.push((column, row, part));
                 triplets.push((row, column, self.values[t] - part));
             } else {
@@ -194,7 +166,7 @@ impl System {
             }
         }
         for i in (1..triplets.len()).rev() {
-            triplets.swap(i, random.below(i + 1));
+            triplets.swap(i, random.random_range(0..i + 1));
         }
         Self {
             dims: self.dims.clone(),

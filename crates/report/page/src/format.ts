@@ -1,10 +1,9 @@
-/** A number as people read it: `digits` significant ones and a true minus sign. */
+/** A number as people read it and can paste it: `digits` significant ones, in ASCII. */
 export function short(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "\u2013";
   const size = Math.abs(value);
   if (size < 1e-9) return "0";
-  const text = size < 1e-3 || size >= 1e5 ? value.toExponential(1) : fixed(value, size, digits);
-  return text.replaceAll("-", "\u2212");
+  return size < 1e-3 || size >= 1e5 ? value.toExponential(1) : fixed(value, size, digits);
 }
 
 function fixed(value: number, size: number, digits: number): string {

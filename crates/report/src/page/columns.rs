@@ -2,8 +2,9 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use righting_maneuver::{CollisionModel, Maneuver, Node, Scenario, Trajectory};
 use righting_multibody::Kinematics;
+use righting_results::{Node, Trajectory};
+use righting_scenario::{CollisionModel, Maneuver, Scenario};
 use serde::Serialize;
 
 /// More intervals than this are thinned out.

@@ -1,15 +1,14 @@
 //! Everything the page says, in the shape that `page/src/data.ts` mirrors.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
-use righting_maneuver::{
-    Maneuver, Scenario, Solution, SystemDescription, Trajectory, UsedOptimizer,
-};
 use righting_multibody::DhConvention;
+use righting_results::{Solution, Trajectory, UsedOptimizer};
+use righting_scenario::{Maneuver, Scenario, SystemDescription};
 use serde::Serialize;
 
 use super::columns::{Columns, stride};
 use crate::asked;
-use crate::numbers::{Fact, UsedLimit, facts, used_limits};
+use crate::facts::{Fact, UsedLimit, facts, used_limits};
 use crate::summary::{check_rows, verdict};
 
 #[derive(Debug, Serialize)]
@@ -127,7 +126,7 @@ impl Spacecraft {
 }
 
 impl JointLimits {
-    fn of(limits: &righting_maneuver::JointLimits) -> Self {
+    fn of(limits: &righting_scenario::JointLimits) -> Self {
         let finite_deg = |angle_rad: f64| angle_rad.is_finite().then(|| angle_rad.to_degrees());
         Self {
             angle_min_deg: finite_deg(limits.angle_min_rad),

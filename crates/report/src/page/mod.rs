@@ -4,7 +4,8 @@ mod columns;
 mod data;
 mod slews;
 
-use righting_maneuver::{Scenario, Solution, Trajectory};
+use righting_results::{Solution, Trajectory};
+use righting_scenario::Scenario;
 use serde::Serialize;
 
 use data::PageData;

@@ -5,7 +5,7 @@ use righting_sweep::{SlewPoint, Slews};
 use serde::Serialize;
 
 use super::{escaped, fill, in_script};
-use crate::number::short;
+use crate::number::drawn;
 use crate::slews::{costs, sample, subtitle};
 use crate::style;
 
@@ -64,7 +64,7 @@ impl<'a> Data<'a> {
         let costs = costs(slews);
         let ticks = costs.ticks(5.0).into_iter().map(|(value, _)| Tick {
             share: (value - costs.low) / costs.span(),
-            label: short(10f64.powf(value)),
+            label: drawn(10f64.powf(value)),
         });
         Self {
             name,

@@ -1,6 +1,6 @@
 //! A made-up result, smooth and within its limits but for what a test changes.
 
-use righting_maneuver::{Interval, Node, Solution, Trajectory};
+use righting_results::{Interval, Node, Solution, Trajectory};
 
 /// A result of a slew or a detumble with `joints` joints on `steps` intervals of 50 ms.
 pub fn result(kind: &str, joints: usize, steps: usize) -> (Solution, Trajectory) {

@@ -1,12 +1,12 @@
 //! Runs instructions of a tape over one block of lanes: the path for machines without machine code
 //! of our own, and the reference for those that have it.
-#![expect(unsafe_code, reason = "registers are checked once, when the tape is made")]
+#![expect(unsafe_code, reason = "calls functions compiled for what the machine has")]
 
 use std::ops::Range;
 
 use super::LANES;
 use super::isa::InstructionSet;
-use super::tape::{Instruction, Opcode, Register, Tape};
+use super::tape::{Instruction, Opcode, Tape};
 use super::workspace::Lanes;
 use crate::op::{self, Binary, Unary};
 use crate::trigonometry::{self, REDUCTION_LIMIT, sin_cos_reduced};
@@ -75,60 +75,49 @@ macro_rules! sin_cos {
 
 #[inline(always)]
 fn interpret(instructions: &[Instruction], registers: &mut [Lanes]) {
-    let count = registers.len();
-    let registers = registers.as_mut_ptr();
-    let at = |register: Register| {
-        debug_assert!((register as usize) < count);
-        // SAFETY: `Tape::new` checked every register against the layout, whose size `run` compared
-        // with the slice's length.
-        unsafe { registers.add(register as usize) }
-    };
-    // Each operation stores its own result: one store after the branches would go through the stack.
-    macro_rules! store {
-        ($register:expr, $lanes:expr) => {{
-            let lanes = $lanes;
-            // SAFETY: `at` points into the slice, and no reference to it is alive.
-            unsafe { *at($register) = Lanes(lanes) }
-        }};
-    }
     for instruction in instructions {
         let [a, b, c] = instruction.registers;
         let result = instruction.result;
-        // SAFETY: as in `store`.
-        let load = |register| unsafe { (*at(register)).0 };
+        macro_rules! at {
+            ($register:expr) => {
+                registers[$register as usize]
+            };
+        }
+        // Each operation loads and stores by itself: what is shared by branches goes through the stack.
+        macro_rules! unary {
+            ($x:ident => $value:expr) => {{
+                let operand = &at!(a);
+                at!(result) = lanes!(l => { let $x = operand[l]; $value });
+            }};
+        }
+        macro_rules! binary {
+            ($x:ident, $y:ident => $value:expr) => {{
+                let (first, second) = (&at!(a), &at!(b));
+                at!(result) = lanes!(l => { let ($x, $y) = (first[l], second[l]); $value });
+            }};
+        }
         match instruction.opcode {
-            Opcode::Binary(op) => {
-                let (x, y) = (load(a), load(b));
-                match op {
-                    Binary::Add => store!(result, lanes!(l => x[l] + y[l])),
-                    Binary::Sub => store!(result, lanes!(l => x[l] - y[l])),
-                    Binary::Mul => store!(result, lanes!(l => x[l] * y[l])),
-                    Binary::Div => store!(result, lanes!(l => x[l] / y[l])),
-                    op => store!(result, binary(op, &x, &y)),
-                }
-            }
-            Opcode::Unary(op) => {
-                let x = load(a);
-                match op {
-                    Unary::Neg => store!(result, lanes!(l => -x[l])),
-                    Unary::Abs => store!(result, lanes!(l => x[l].abs())),
-                    Unary::Sqrt => store!(result, lanes!(l => x[l].sqrt())),
-                    Unary::Sin => store!(result, sin_cos!(&x).0),
-                    Unary::Cos => store!(result, sin_cos!(&x).1),
-                    op => store!(result, unary(op, &x)),
-                }
-            }
+            Opcode::Binary(Binary::Add) => binary!(x, y => x + y),
+            Opcode::Binary(Binary::Sub) => binary!(x, y => x - y),
+            Opcode::Binary(Binary::Mul) => binary!(x, y => x * y),
+            Opcode::Binary(Binary::Div) => binary!(x, y => x / y),
+            Opcode::Binary(op) => at!(result) = binary(op, &at!(a), &at!(b)),
+            Opcode::Unary(Unary::Neg) => unary!(x => -x),
+            Opcode::Unary(Unary::Abs) => unary!(x => x.abs()),
+            Opcode::Unary(Unary::Sqrt) => unary!(x => x.sqrt()),
+            Opcode::Unary(Unary::Sin) => at!(result) = sin_cos!(&at!(a)).0,
+            Opcode::Unary(Unary::Cos) => at!(result) = sin_cos!(&at!(a)).1,
+            Opcode::Unary(op) => at!(result) = unary(op, &at!(a)),
             Opcode::SinCos => {
-                let x = load(a);
-                let (sines, cosines) = sin_cos!(&x);
-                store!(result, sines);
-                store!(b, cosines);
+                let (sines, cosines) = sin_cos!(&at!(a));
+                at!(result) = sines;
+                at!(b) = cosines;
             }
             Opcode::Select => {
-                let (x, y, z) = (load(a), load(b), load(c));
-                store!(result, lanes!(l => op::select(x[l], y[l], z[l])));
+                let (x, y, z) = (&at!(a), &at!(b), &at!(c));
+                at!(result) = lanes!(l => op::select(x[l], y[l], z[l]));
             }
-            Opcode::Copy => store!(result, load(a)),
+            Opcode::Copy => at!(result) = at!(a),
         }
     }
 }

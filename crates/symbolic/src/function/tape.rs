@@ -107,7 +107,7 @@ impl Layout {
 pub(super) const MASKS: [f64; 3] = [0.0, -0.0, f64::from_bits(u64::MAX >> 1)];
 
 /// A straight-line program over one register file. Every register index is below
-/// `layout.registers()`: [`Tape::new`] checks it, and the interpreter relies on it.
+/// `layout.registers()`: [`Tape::new`] checks it, and machine code relies on it.
 #[derive(Clone, Debug)]
 pub(super) struct Tape {
     pub layout: Layout,

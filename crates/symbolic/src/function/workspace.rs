@@ -1,29 +1,31 @@
 //! The memory of one evaluation.
-#![expect(unsafe_code, reason = "registers are read as plain numbers")]
 
 use std::sync::Arc;
+
+use aligned_vec::{AVec, ConstAlign, avec};
 
 use super::{Compiled, Function, LANES, Port};
 
 /// One register: a value for each lane.
-#[derive(Copy, Clone, Debug, PartialEq)]
-#[repr(C, align(64))]
-pub(super) struct Lanes(pub(super) [f64; LANES]);
+pub(super) type Lanes = [f64; LANES];
+
+/// Bytes of a register and of the widest vector: none straddles two lines of the cache.
+const ALIGNMENT: usize = 64;
 
 /// Inputs, outputs and intermediate values of one block; made by [`Function::workspace`].
 #[derive(Clone)]
 pub struct Workspace {
     function: Arc<Compiled>,
-    registers: Vec<Lanes>,
+    registers: AVec<Lanes, ConstAlign<ALIGNMENT>>,
 }
 
 impl Workspace {
     pub(super) fn new(function: &Function) -> Self {
         let layout = &function.0.tape.layout;
-        let mut registers = vec![Lanes([0.0; LANES]); layout.registers()];
+        let mut registers = avec![[ALIGNMENT]| [0.0; LANES]; layout.registers()];
         let constants = &mut registers[layout.first_constant()..][..layout.constants];
         for (register, &constant) in constants.iter_mut().zip(&function.0.tape.constants) {
-            register.0.fill(constant);
+            register.fill(constant);
         }
         Workspace { function: Arc::clone(&function.0), registers }
     }
@@ -47,7 +49,7 @@ impl Workspace {
     /// If there is no such port.
     pub fn input_mut(&mut self, port: usize) -> &mut [f64] {
         let (first, len) = place(&self.function.inputs, port);
-        flatten_mut(&mut self.registers[first..first + len])
+        self.registers[first..first + len].as_flattened_mut()
     }
 
     /// The block of output number `port`, as the last evaluation left it; value i of lane l is
@@ -58,7 +60,7 @@ impl Workspace {
     pub fn output(&self, port: usize) -> &[f64] {
         let (first, len) = place(&self.function.outputs, port);
         let first = first + self.function.tape.layout.first_output();
-        flatten(&self.registers[first..first + len])
+        self.registers[first..first + len].as_flattened()
     }
 }
 
@@ -66,18 +68,3 @@ fn place(ports: &[Port], port: usize) -> (usize, usize) {
     let first = ports[..port].iter().map(Port::len).sum();
     (first, ports[port].len())
 }
-
-fn flatten(registers: &[Lanes]) -> &[f64] {
-    let len = registers.len() * LANES;
-    // SAFETY: `Lanes` is `repr(C)` around `[f64; LANES]`, whose size is a multiple of the alignment
-    // asked for, so there is no padding between or within registers.
-    unsafe { std::slice::from_raw_parts(registers.as_ptr().cast(), len) }
-}
-
-fn flatten_mut(registers: &mut [Lanes]) -> &mut [f64] {
-    let len = registers.len() * LANES;
-    // SAFETY: as in `flatten`; the borrow is exclusive.
-    unsafe { std::slice::from_raw_parts_mut(registers.as_mut_ptr().cast(), len) }
-}
-
-const _: () = assert!(size_of::<Lanes>() == LANES * size_of::<f64>());

@@ -1,0 +1,126 @@
+//! How far a detumble can go.
+
+use righting_multibody::System;
+use righting_scenario::collision::CollisionModel;
+use righting_scenario::halton::Halton;
+use righting_scenario::scenario::Scenario;
+use righting_scenario::system_description::SystemDescription;
+
+/// Arm postures looked at to begin with.
+const SAMPLES: usize = 1024;
+/// The best of them from which to climb.
+const CLIMBS: usize = 4;
+/// The climb ends when its step is below this part of a joint's range.
+const FINEST: f64 = 1e-7;
+
+/// The least angular rate that a base can have when its arm stands still, rad/s.
+///
+/// Momentum h₀ is conserved, and with the joints at rest h = Ĩ(q) ω, so
+///
+/// ```text
+/// ‖ω‖ ≥ ‖h₀‖ / max_q λ_max(Ĩ(q)),
+/// ```
+///
+/// the maximum over the postures within the joints' limits that keep their clearances. It is found
+/// from evenly spread postures by climbing from the best of them, the same way every time. Whether
+/// the arm can get there, and in the time there is, does not count: a bound may be out of reach.
+pub fn rate_bound_rad_s(scenario: &Scenario) -> f64 {
+    let momentum = scenario.initial().angular_momentum_n_m_s.norm();
+    momentum / largest_inertia(scenario.system(), scenario.collision())
+}
+
+/// max_q λ_max(Ĩ(q)), kg m².
+fn largest_inertia(system: &SystemDescription, collision: &CollisionModel) -> f64 {
+    let joints = system.joint_count();
+    let inertia = |unit: &[f64]| principal_inertia(&system.model, &system.joint_angles_at(unit));
+    let is_clear = |unit: &[f64]| {
+        let posture = system.model.kinematics(&system.joint_angles_at(unit));
+        collision.clearances(&posture).all(|clearance| clearance.distance_m >= clearance.least_m)
+    };
+    let mut samples: Vec<(f64, Vec<f64>)> =
+        Halton::new(joints).take(SAMPLES).map(|unit| (inertia(&unit), unit)).collect();
+    samples.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let highest = |tops: Vec<(f64, Vec<f64>)>| {
+        let highest = tops.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
+        highest.expect("the climbs start from some sample")
+    };
+    let starts = samples.iter().take(CLIMBS).cloned();
+    let axes = directions(joints, false);
+    let (largest, unit) = highest(starts.map(|start| climb(start, &axes, inertia)).collect());
+    if is_clear(&unit) {
+        return largest;
+    }
+    let starts: Vec<_> =
+        samples.into_iter().filter(|(_, unit)| is_clear(unit)).take(CLIMBS).collect();
+    if starts.is_empty() {
+        return largest;
+    }
+    // Along the edge of what is clear, a step along one axis leads into a collision or downhill.
+    let diagonals = directions(joints, true);
+    let clear = |unit: &[f64]| if is_clear(unit) { inertia(unit) } else { f64::NEG_INFINITY };
+    highest(starts.into_iter().map(|start| climb(start, &diagonals, clear)).collect()).0
+}
+
+/// Both ways along every axis, and along the diagonals of every two if asked for.
+fn directions(dimensions: usize, with_diagonals: bool) -> Vec<Vec<(usize, f64)>> {
+    let ways = [1.0, -1.0];
+    let mut directions: Vec<Vec<(usize, f64)>> =
+        (0..dimensions).flat_map(|axis| ways.map(|way| vec![(axis, way)])).collect();
+    if with_diagonals {
+        for a in 0..dimensions {
+            for b in a + 1..dimensions {
+                directions.extend(ways.iter().flat_map(|&x| ways.map(|y| vec![(a, x), (b, y)])));
+            }
+        }
+    }
+    directions
+}
+
+/// Compass search within the unit cube: steps in each direction while they go up, then shorter ones.
+fn climb(
+    (mut highest, mut unit): (f64, Vec<f64>),
+    directions: &[Vec<(usize, f64)>],
+    height: impl Fn(&[f64]) -> f64,
+) -> (f64, Vec<f64>) {
+    let mut step = 0.1;
+    while step > FINEST {
+        let before = highest;
+        for direction in directions {
+            let mut there = unit.clone();
+            for &(axis, way) in direction {
+                there[axis] = (there[axis] + way * step).clamp(0.0, 1.0);
+            }
+            let found = height(&there);
+            if found > highest {
+                (highest, unit) = (found, there);
+            }
+        }
+        if highest <= before {
+            step *= 0.5;
+        }
+    }
+    (highest, unit)
+}
+
+fn principal_inertia(model: &System, joint_angles_rad: &[f64]) -> f64 {
+    model.locked_inertia(joint_angles_rad).symmetric_eigenvalues().max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_climb_follows_the_edge_of_what_is_clear() {
+        // Highest at (1, 0.2), where x + y = 1.2 meets the side of the square.
+        let height = |p: &[f64]| match p[0] + p[1] <= 1.2 {
+            true => 2.0 * p[0] + p[1],
+            false => f64::NEG_INFINITY,
+        };
+        let start = || (height(&[0.4, 0.5]), vec![0.4, 0.5]);
+        let (along_axes, _) = climb(start(), &directions(2, false), height);
+        let (highest, point) = climb(start(), &directions(2, true), height);
+        assert!((highest - 2.2).abs() < 1e-5 && (point[0] - 1.0).abs() < 1e-5, "{point:?}");
+        assert!(along_axes < highest, "{along_axes}");
+    }
+}

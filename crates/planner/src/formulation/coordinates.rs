@@ -1,0 +1,156 @@
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State, System};
+use righting_scalar::Scalar;
+use righting_scenario::file::Formulation;
+use righting_scenario::initial::Initial;
+use righting_scenario::scenario::Scenario;
+
+/// The states of the optimal control problem.
+///
+/// ```text
+/// full     [r, q_BN, ṙ, ω, q, q̇]     13 + 2j
+/// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃), r and ṙ from the fixed CM
+/// ```
+#[derive(Clone)]
+pub(crate) struct Coordinates {
+    formulation: Formulation,
+    system: Arc<System>,
+    /// h₀, inertial axes, N m s.
+    momentum: Vector3<f64>,
+    /// Where the system's centre of mass rests, inertial axes, m.
+    center: Vector3<f64>,
+}
+
+impl Coordinates {
+    pub(crate) fn new(scenario: &Scenario, formulation: Formulation) -> Self {
+        let system = Arc::new(scenario.system().model.clone());
+        let initial = scenario.initial();
+        let attitude = initial.attitude;
+        let h_body = system.angular_momentum(
+            &initial.angular_rate_rad_s,
+            &initial.joint_angles_rad,
+            &initial.joint_rates_rad_s,
+        );
+        let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
+        Self { formulation, momentum: attitude.to_inertial(&h_body), center, system }
+    }
+
+    fn joints(&self) -> usize {
+        self.system.joint_count()
+    }
+
+    /// Number of states.
+    pub(crate) fn dimension(&self) -> usize {
+        self.first_joint_angle() + 2 * self.joints()
+    }
+
+    fn first_joint_angle(&self) -> usize {
+        match self.formulation {
+            Formulation::Full => 13,
+            Formulation::Reduced => 4,
+        }
+    }
+
+    /// Index of a joint's angle among the states.
+    pub(crate) fn joint_angle(&self, joint: usize) -> usize {
+        self.first_joint_angle() + joint
+    }
+
+    /// Index of a joint's rate among the states.
+    pub(crate) fn joint_rate(&self, joint: usize) -> usize {
+        self.first_joint_angle() + self.joints() + joint
+    }
+
+    /// The joint angles among the states.
+    pub(crate) fn joint_angles<'x, T>(&self, x: &'x [T]) -> &'x [T] {
+        &x[self.joint_angle(0)..self.joint_rate(0)]
+    }
+
+    fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
+        &x[self.joint_rate(0)..]
+    }
+
+    /// The state at the start.
+    pub(crate) fn initial(&self, initial: &Initial) -> Vec<f64> {
+        let attitude = initial.attitude;
+        let state = State {
+            position: Vector3::zeros(),
+            attitude,
+            velocity: self.base_velocity(
+                &attitude,
+                &initial.angular_rate_rad_s,
+                &initial.joint_angles_rad,
+                &initial.joint_rates_rad_s,
+            ),
+            angular_rate: initial.angular_rate_rad_s,
+            joint_angles: initial.joint_angles_rad.clone(),
+            joint_rates: initial.joint_rates_rad_s.clone(),
+        };
+        self.of_free_floating_state(&state)
+    }
+
+    /// The state in these coordinates.
+    pub(crate) fn of_free_floating_state(&self, state: &State<f64>) -> Vec<f64> {
+        match self.formulation {
+            Formulation::Full => state.to_vec(),
+            Formulation::Reduced => {
+                let attitude = state.attitude.to_array();
+                [&attitude[..], &state.joint_angles, &state.joint_rates].concat()
+            }
+        }
+    }
+
+    /// ẋ for the joint accelerations `u`.
+    pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
+        match self.formulation {
+            Formulation::Full => self.system.state_derivative(x, u),
+            Formulation::Reduced => {
+                let attitude = reduced_attitude(x);
+                let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
+                [&turning[..], self.joint_rates(x), u].concat()
+            }
+        }
+    }
+
+    /// Everything that moves, at state `x`.
+    pub(crate) fn free_floating_state<T: Scalar>(&self, x: &[T]) -> State<T> {
+        match self.formulation {
+            Formulation::Full => State::from_slice(x).expect("the full form's states"),
+            Formulation::Reduced => {
+                let (q, qdot) = (self.joint_angles(x), self.joint_rates(x));
+                let attitude = reduced_attitude(x);
+                let angular_rate = self.reduced_angular_rate(&attitude, x);
+                State {
+                    position: self.system.base_position(&attitude, q, &self.center.map(T::from)),
+                    velocity: self.base_velocity(&attitude, &angular_rate, q, qdot),
+                    attitude,
+                    angular_rate,
+                    joint_angles: q.to_vec(),
+                    joint_rates: qdot.to_vec(),
+                }
+            }
+        }
+    }
+
+    fn reduced_angular_rate<T: Scalar>(&self, attitude: &Quaternion<T>, x: &[T]) -> Vector3<T> {
+        let h_body = attitude.to_body(&self.momentum.map(T::from));
+        self.system.reduced_angular_rate(self.joint_angles(x), self.joint_rates(x), &h_body)
+    }
+
+    fn base_velocity<T: Scalar>(
+        &self,
+        attitude: &Quaternion<T>,
+        angular_rate: &Vector3<T>,
+        q: &[T],
+        qdot: &[T],
+    ) -> Vector3<T> {
+        let rest = Vector3::from_element(T::from(0.0));
+        self.system.base_velocity(attitude, angular_rate, q, qdot, &rest)
+    }
+}
+
+fn reduced_attitude<T: Scalar>(x: &[T]) -> Quaternion<T> {
+    Quaternion::new(x[0], x[1], x[2], x[3])
+}

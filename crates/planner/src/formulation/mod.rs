@@ -1,0 +1,176 @@
+//! The optimal control problem of a scenario.
+//!
+//! ```text
+//! min  Σ_{k<N} w_u ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
+//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)²
+//! ```
+//!
+//! (the paper's equations 6–14). The desired position, velocity, rates and joint angles are those of
+//! the system at rest where it starts. Distances are squared: the feasible set is the same, and the
+//! square is smooth where two links meet.
+
+mod coordinates;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use righting_multibody::{Quaternion, State, System};
+use righting_ocp::{ControlProblem, Interval};
+use righting_scalar::Scalar;
+use righting_symbolic::{Expr, trace};
+
+pub(crate) use coordinates::Coordinates;
+use righting_scenario::collision::CollisionModel;
+use righting_scenario::file::{Formulation, Guess, NamedGuess};
+use righting_scenario::scenario::{Maneuver, Scenario, Weights};
+
+/// A scenario as an optimal control problem: what [`plan`](crate::plan) transcribes and solves.
+pub struct FormulatedManeuver {
+    /// The problem, in continuous time.
+    pub problem: ControlProblem,
+    pub(crate) coordinates: Coordinates,
+    /// Its initial state x_0: [r, q_BN, ṙ, ω, q, q̇] in the full form, [q_BN, q, q̇] in the reduced.
+    pub initial: Vec<f64>,
+}
+
+impl FormulatedManeuver {
+    /// In the scenario's own form.
+    pub fn new(scenario: &Scenario) -> Self {
+        Self::in_form(scenario, scenario.solver().formulation)
+    }
+
+    pub(crate) fn in_form(scenario: &Scenario, formulation: Formulation) -> Self {
+        let coordinates = Coordinates::new(scenario, formulation);
+        let initial = coordinates.initial(scenario.initial());
+        let states = coordinates.dimension();
+        let limits = &scenario.system().joint_limits;
+
+        let mut state_bounds = Interval::unbounded(states);
+        for (joint, limits) in limits.iter().enumerate() {
+            let (angle, rate) = (coordinates.joint_angle(joint), coordinates.joint_rate(joint));
+            state_bounds.lower[angle] = limits.angle_min_rad;
+            state_bounds.upper[angle] = limits.angle_max_rad;
+            state_bounds.lower[rate] = -limits.rate_max_rad_s;
+            state_bounds.upper[rate] = limits.rate_max_rad_s;
+        }
+        let accelerations: Vec<f64> =
+            limits.iter().map(|limits| limits.acceleration_max_rad_s2).collect();
+
+        let dynamics = coordinates.clone();
+        let terminal = coordinates.clone();
+        let weights = scenario.weights();
+        let goal = Goal::of(scenario);
+        let clearances = Clearances::new(scenario);
+        let path = coordinates.clone();
+        let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
+            .running_cost(move |_, u| sum_of_squares(u) * weights.control)
+            .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
+            .state_bounds(state_bounds)
+            .control_bounds(Interval::symmetric(&accelerations))
+            .path_constraints(clearances.bounds(), move |x| {
+                clearances.squared_distances(path.joint_angles(x))
+            });
+        // The paper transcribes all states, and which ones there are decides where its guess leads.
+        let problem = match scenario.solver().guess {
+            Guess::Named(NamedGuess::Constant) => problem.keep_passive_states(),
+            _ => problem,
+        };
+        Self { problem, coordinates, initial }
+    }
+}
+
+/// The state that the terminal cost asks for; rates and velocity are zero.
+struct Goal {
+    attitude: Quaternion<f64>,
+    joint_angles_rad: Vec<f64>,
+}
+
+impl Goal {
+    fn of(scenario: &Scenario) -> Self {
+        let initial = scenario.initial();
+        let attitude = match scenario.maneuver() {
+            Maneuver::Slew(slew) => slew.target,
+            Maneuver::Detumble => initial.attitude,
+        };
+        Self { attitude, joint_angles_rad: initial.joint_angles_rad.clone() }
+    }
+
+    fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {
+        let desired = Quaternion::from_array(self.attitude.to_array().map(T::from));
+        let attitude_error = state.attitude.error_vector(&desired);
+        let joint_errors: Vec<T> = state
+            .joint_angles
+            .iter()
+            .zip(&self.joint_angles_rad)
+            .map(|(&q, &goal)| q - goal)
+            .collect();
+        let terms = [
+            (weights.position, sum_of_squares(state.position.as_slice())),
+            (weights.attitude, sum_of_squares(attitude_error.as_slice())),
+            (weights.velocity, sum_of_squares(state.velocity.as_slice())),
+            (weights.angular_rate, sum_of_squares(state.angular_rate.as_slice())),
+            (weights.joint_angle, sum_of_squares(&joint_errors)),
+            (weights.joint_rate, sum_of_squares(&state.joint_rates)),
+        ];
+        // A term without weight is left out, not multiplied by zero: what it reads stays passive.
+        terms
+            .into_iter()
+            .filter(|(weight, _)| *weight > 0.0)
+            .fold(T::from(0.0), |sum, (weight, term)| sum + term * weight)
+    }
+}
+
+/// The squared distances that the joint angles decide, with their smallest values.
+#[derive(Clone)]
+struct Clearances {
+    system: Arc<System>,
+    collision: CollisionModel,
+    /// Which of all squared distances depend on the joint angles.
+    varying: Vec<usize>,
+}
+
+impl Clearances {
+    fn new(scenario: &Scenario) -> Self {
+        let mut clearances = Self {
+            system: Arc::new(scenario.system().model.clone()),
+            collision: scenario.collision().clone(),
+            varying: Vec::new(),
+        };
+        clearances.varying = trace(|| {
+            let q = Expr::symbols("q", clearances.system.joint_count());
+            let distances = clearances.all_squared_distances(&q);
+            (0..distances.len()).filter(|&i| distances[i].as_constant().is_none()).collect()
+        });
+        clearances
+    }
+
+    fn all_squared_distances<T: Scalar>(&self, q: &[T]) -> Vec<T> {
+        let to_body = self.collision.body_links.iter();
+        let between = self.collision.link_pairs.iter();
+        to_body
+            .map(|&link| self.system.squared_distance_to_base(q, link))
+            .chain(between.map(|&(a, b)| self.system.squared_distance_between(q, a, b)))
+            .collect()
+    }
+
+    fn squared_distances<T: Scalar>(&self, q: &[T]) -> Vec<T> {
+        let all = self.all_squared_distances(q);
+        self.varying.iter().map(|&index| all[index]).collect()
+    }
+
+    fn bounds(&self) -> Interval {
+        let links = self.collision.body_links.len();
+        let smallest = |index: usize| match index < links {
+            true => self.collision.body_distance_m,
+            false => self.collision.clearance_m,
+        };
+        let lower: Vec<f64> = self.varying.iter().map(|&index| smallest(index).powi(2)).collect();
+        let upper = vec![f64::INFINITY; lower.len()];
+        Interval::new(lower, upper)
+    }
+}
+
+fn sum_of_squares<T: Scalar>(values: &[T]) -> T {
+    values.iter().fold(T::from(0.0), |sum, &value| sum + value * value)
+}

@@ -1,0 +1,223 @@
+//! Initial guesses: trajectories to start the optimizer from.
+
+mod joint_loops;
+
+use std::f64::consts::PI;
+
+use righting_multibody::{Quaternion, State};
+use righting_ocp::Guess;
+use righting_results::trajectory::Trajectory;
+use righting_scenario::halton::Halton;
+use righting_scenario::scenario::{Maneuver, Scenario};
+
+use crate::formulation::Coordinates;
+use crate::symmetry::{Mirror, reversed};
+
+/// How far a low-discrepancy guess takes a joint without limits, rad.
+const FREE_JOINT_RAD: f64 = 2.0;
+/// So much nearer to the target an image of an earlier plan must end to be taken in its place, rad.
+const NEARER_RAD: f64 = 1e-3;
+/// Share of the way to a joint's limit that a guess may take.
+const LIMIT_SHARE: f64 = 0.8;
+
+/// The initial guesses of a maneuver on a grid.
+pub(crate) struct InitialGuesses<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) coordinates: &'a Coordinates,
+    /// x_0.
+    pub(crate) initial: &'a [f64],
+    pub(crate) steps: usize,
+}
+
+impl InitialGuesses<'_> {
+    /// The state held at the start, no control: the paper's guess.
+    pub(crate) fn constant(&self) -> Guess {
+        Guess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
+    }
+
+    /// Low-discrepancy guesses `first`, `first + 1`, … without end; each is the same every time. Every
+    /// joint moves smoothly, rest to rest, to somewhere within its limits, and some of the way back. The
+    /// ends are points of a Halton sequence. The base's attitude is held.
+    pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = Guess> {
+        let joints = self.scenario.system().joint_count();
+        // Two points a guess: how far each joint goes, and how much of it stays.
+        let mut points = Halton::starting_after(joints, 2 * first);
+        std::iter::from_fn(move || Some(self.with_joints_to(&points.next()?, &points.next()?)))
+    }
+
+    /// The `count` of the first `screened` low-discrepancy guesses after which the base turns slowest,
+    /// simulated.
+    pub(crate) fn least_final_rate(&self, screened: usize, count: usize) -> Vec<Guess> {
+        let mut simulated: Vec<(f64, Guess)> = self
+            .low_discrepancy(0)
+            .take(screened)
+            .map(|guess| self.simulated(guess))
+            .map(|guess| {
+                let end = self.coordinates.free_floating_state(guess.states.row(self.steps));
+                (end.angular_rate.norm(), guess)
+            })
+            .collect();
+        simulated.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        simulated.into_iter().take(count).map(|(_, guess)| guess).collect()
+    }
+
+    /// The motion that the guess's controls make: its base turns as momentum has it.
+    pub(crate) fn simulated(&self, mut guess: Guess) -> Guess {
+        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
+        let mut x = self.initial.to_vec();
+        for step in 0..self.steps {
+            let u = guess.controls.row(step);
+            let after = |rates: &[f64], share: f64| -> Vec<f64> {
+                x.iter().zip(rates).map(|(x, rate)| x + share * step_s * rate).collect()
+            };
+            let k1 = self.coordinates.rates(&x, u);
+            let k2 = self.coordinates.rates(&after(&k1, 0.5), u);
+            let k3 = self.coordinates.rates(&after(&k2, 0.5), u);
+            let k4 = self.coordinates.rates(&after(&k3, 1.0), u);
+            for (i, x) in x.iter_mut().enumerate() {
+                *x += step_s / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+            }
+            guess.states.row_mut(step + 1).copy_from_slice(&x);
+        }
+        guess
+    }
+
+    /// The motion of an earlier plan of the same arm, or its image where that ends nearer to the
+    /// target, stretched to this horizon and shifted to this maneuver's first posture.
+    pub(crate) fn along_trajectory(&self, plan: &Trajectory) -> Guess {
+        let mut guess = self.constant();
+        let image = self.nearest_image(plan);
+        let plan = image.as_ref().unwrap_or(plan);
+        let shift: Vec<f64> = self
+            .coordinates
+            .joint_angles(self.initial)
+            .iter()
+            .zip(&plan.start().joint_angles_rad)
+            .map(|(here, there)| here - there)
+            .collect();
+        let old_steps = plan.steps();
+        let faster = plan.end().time_s / self.scenario.horizon().duration_s;
+        for node in 1..=self.steps {
+            let position = node as f64 * old_steps as f64 / self.steps as f64;
+            let before = (position.floor() as usize).min(old_steps - 1);
+            let share = position - before as f64;
+            let [a, b] = [before, before + 1].map(|node| plan.nodes()[node].state().to_vec());
+            let blend: Vec<f64> =
+                a.iter().zip(&b).map(|(a, b)| (1.0 - share) * a + share * b).collect();
+            let mut state = State::from_slice(&blend).expect("a state of the same arm");
+            state.attitude = state.attitude.normalized();
+            state.joint_angles.iter_mut().zip(&shift).for_each(|(angle, shift)| *angle += shift);
+            state.joint_rates.iter_mut().for_each(|rate| *rate *= faster);
+            let row = self.coordinates.of_free_floating_state(&state);
+            guess.states.row_mut(node).copy_from_slice(&row);
+        }
+        for step in 0..self.steps {
+            let middle = (step as f64 + 0.5) / self.steps as f64;
+            let old = &plan.intervals()[((middle * old_steps as f64) as usize).min(old_steps - 1)];
+            let controls = guess.controls.row_mut(step);
+            for (control, acceleration) in controls.iter_mut().zip(&old.joint_accelerations_rad_s2)
+            {
+                *control = acceleration * faster * faster;
+            }
+        }
+        guess
+    }
+
+    /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
+    fn nearest_image(&self, plan: &Trajectory) -> Option<Trajectory> {
+        let Maneuver::Slew(slew) = self.scenario.maneuver() else { return None };
+        let wanted = self.scenario.initial().attitude.conjugate().product(&slew.target);
+        let miss = |motion: &Trajectory| {
+            let [start, end] = [motion.start(), motion.end()]
+                .map(|node| Quaternion::from_array(node.attitude).normalized());
+            start.conjugate().product(&end).angle_to(&wanted)
+        };
+        let backwards = reversed(plan);
+        let mirrors = Mirror::all(self.scenario.system());
+        let seen = mirrors.iter().flat_map(|mirror| [mirror.image(plan), mirror.image(&backwards)]);
+        let mut images: Vec<Trajectory> = seen.collect();
+        images.insert(0, backwards);
+        images.retain(|image| miss(image) < miss(plan) - NEARER_RAD);
+        images.into_iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
+    }
+
+    fn with_joints_to(&self, reach: &[f64], back: &[f64]) -> Guess {
+        let duration_s = self.scenario.horizon().duration_s;
+        let limits = &self.scenario.system().joint_limits;
+        let motions = limits.iter().enumerate().map(|(joint, limits)| {
+            let start = self.initial[self.coordinates.joint_angle(joint)];
+            let signed = 2.0 * reach[joint] - 1.0;
+            let room = match signed > 0.0 {
+                true => limits.angle_max_rad - start,
+                false => start - limits.angle_min_rad,
+            };
+            let amplitude = signed * room.clamp(0.0, FREE_JOINT_RAD) * LIMIT_SHARE;
+            Motion { amplitude, back: back[joint], duration_s }
+        });
+        self.moved(&motions.collect::<Vec<_>>())
+    }
+
+    /// The joints move so, and the base's attitude is held.
+    fn moved(&self, motions: &[Motion]) -> Guess {
+        let mut guess = self.constant();
+        for (joint, motion) in motions.iter().enumerate() {
+            let (angle, rate) =
+                (self.coordinates.joint_angle(joint), self.coordinates.joint_rate(joint));
+            for node in 1..=self.steps {
+                let row = guess.states.row_mut(node);
+                let phase = node as f64 / self.steps as f64;
+                row[angle] += motion.angle(phase);
+                row[rate] = motion.rate(phase);
+            }
+            for step in 0..self.steps {
+                let phase = (step as f64 + 0.5) / self.steps as f64;
+                guess.controls.row_mut(step)[joint] = motion.acceleration(phase);
+            }
+        }
+        guess
+    }
+}
+
+/// `amplitude · ((1 − b) (1 − cos πs)/2 + b sin² πs)` at the share s of the duration.
+struct Motion {
+    amplitude: f64,
+    /// b: 0 stays there, 1 comes back.
+    back: f64,
+    duration_s: f64,
+}
+
+impl Motion {
+    fn angle(&self, s: f64) -> f64 {
+        let (stay, back) = (0.5 * (1.0 - (PI * s).cos()), (PI * s).sin().powi(2));
+        self.amplitude * ((1.0 - self.back) * stay + self.back * back)
+    }
+
+    fn rate(&self, s: f64) -> f64 {
+        let (stay, back) = (0.5 * (PI * s).sin(), (2.0 * PI * s).sin());
+        self.amplitude * PI * ((1.0 - self.back) * stay + self.back * back) / self.duration_s
+    }
+
+    fn acceleration(&self, s: f64) -> f64 {
+        let (stay, back) = (0.5 * (PI * s).cos(), 2.0 * (2.0 * PI * s).cos());
+        self.amplitude * PI * PI * ((1.0 - self.back) * stay + self.back * back)
+            / self.duration_s.powi(2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_and_accelerations_are_the_derivatives_of_the_angle() {
+        let motion = Motion { amplitude: 0.7, back: 0.3, duration_s: 5.0 };
+        let step = 1e-5;
+        for s in [0.0, 0.1, 0.5, 0.83, 1.0] {
+            let difference =
+                |f: &dyn Fn(f64) -> f64| (f(s + step) - f(s - step)) / (2.0 * step * 5.0);
+            assert!((motion.rate(s) - difference(&|s| motion.angle(s))).abs() < 1e-8);
+            assert!((motion.acceleration(s) - difference(&|s| motion.rate(s))).abs() < 1e-8);
+        }
+        assert!(motion.rate(0.0).abs() < 1e-15 && motion.rate(1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,219 @@
+//! A plan as it is delivered: its trajectory, and everything else that is known of it.
+
+use std::time::{Duration, Instant};
+
+use righting_analysis::detumble::rate_bound_rad_s;
+use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
+use righting_results::solution::SCHEMA;
+use righting_results::{
+    AttemptRecord, Interval, IterationRecord, Node, Solution, Status, Terminal, Timing, Trajectory,
+    UsedOptimizer, Verification, Versions,
+};
+use righting_scenario::error::ShapeError;
+use righting_scenario::{Maneuver, Scenario};
+use righting_verifier::verify;
+
+use crate::formulation::Coordinates;
+use crate::hints::hints;
+use crate::search::Found;
+
+/// A plan that was computed, converged or not, and verified where it converged.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// How it ended, what it reached, and the record of its verification. Of its times, `load` and
+    /// `total` are the caller's to fill in.
+    pub solution: Solution,
+    /// The trajectory on the scenario's grid.
+    pub trajectory: Trajectory,
+}
+
+/// What ended a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// The last solve, however it ended.
+    Finished,
+    /// The observer.
+    Interrupted,
+    /// The clock.
+    TimeLimit,
+}
+
+impl Planned {
+    pub(crate) fn new(
+        scenario: &Scenario,
+        found: Found,
+        ending: Ending,
+        program: &str,
+    ) -> Result<Self, ShapeError> {
+        let status = match (ending, status(found.solution.status)) {
+            (Ending::Interrupted, _) => Status::Interrupted,
+            (Ending::TimeLimit, _) => Status::TimeLimit,
+            (Ending::Finished, Status::Solved) if !found.is_minimum => Status::Acceptable,
+            (Ending::Finished, status) => status,
+        };
+        let trajectory = trajectory(scenario, &found.coordinates, &found.solution)?;
+        let checking = Instant::now();
+        let verification = match status.is_acceptable() {
+            true => verify(scenario, &trajectory),
+            false => Verification::default(),
+        };
+        let timing_s = timing(&found, checking.elapsed());
+        let terminal = Terminal::reached(scenario, &trajectory);
+        let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
+        let mut notes = found.notes;
+        notes.extend(hints(scenario, &trajectory, status));
+        let solution = Solution {
+            schema: SCHEMA.to_owned(),
+            scenario: scenario.resolved().clone(),
+            scenario_sha256: scenario.resolved().sha256(),
+            versions: versions(&found.solution, program),
+            status,
+            objective: found.solution.objective,
+            iterations: found.solution.iterations(),
+            constraint_violation: found.solution.constraint_violation,
+            terminal,
+            timing_s,
+            verification,
+            bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
+            reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
+            notes,
+            attempts: found.attempts.iter().map(attempt_record).collect(),
+            history: found.solution.history.iter().map(record).collect(),
+        };
+        Ok(Self { solution, trajectory })
+    }
+}
+
+fn timing(found: &Found, verify: Duration) -> Timing {
+    let solve = &found.solution.timing;
+    let evaluate = solve.evaluation.total();
+    // With MUMPS, everything in the solve that is not evaluation.
+    let linear_algebra = match solve.linear_solver {
+        Some(linear_solver) => linear_solver.total(),
+        None => solve.total.saturating_sub(evaluate),
+    };
+    Timing {
+        load: 0.0,
+        trace: found.trace.as_secs_f64(),
+        guess: found.guess.as_secs_f64(),
+        evaluate: evaluate.as_secs_f64(),
+        linear_algebra: linear_algebra.as_secs_f64(),
+        solve: found.solve.as_secs_f64(),
+        verify: verify.as_secs_f64(),
+        total: 0.0,
+    }
+}
+
+fn versions(solution: &righting_ocp::Solution, program: &str) -> Versions {
+    let found = righting_ipopt::versions();
+    let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
+    let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
+    Versions {
+        righting: program.to_owned(),
+        ipopt: found.ipopt.clone(),
+        optimizer: used_optimizer(solution.optimizer),
+        linear_solver: match solution.linear_solver {
+            UsedLinearSolver::Stage => "stage".to_owned(),
+            UsedLinearSolver::Mumps => format!("mumps {mumps}"),
+            UsedLinearSolver::MumpsAfterStage => format!("mumps {mumps}, after stage"),
+        },
+    }
+}
+
+/// The whole motion, with the torques that it takes and their power.
+fn trajectory(
+    scenario: &Scenario,
+    coordinates: &Coordinates,
+    solution: &righting_ocp::Solution,
+) -> Result<Trajectory, ShapeError> {
+    let system = &scenario.system().model;
+    let steps = scenario.horizon().steps;
+    let mut nodes = Vec::with_capacity(steps + 1);
+    let mut intervals = Vec::with_capacity(steps);
+    for k in 0..=steps {
+        let state = coordinates.free_floating_state(solution.states.row(k));
+        let accelerations = solution.controls.row(k.min(steps - 1));
+        let torques = system.joint_torques(
+            &state.angular_rate,
+            &state.joint_angles,
+            &state.joint_rates,
+            accelerations,
+        );
+        nodes.push(Node {
+            time_s: scenario.horizon().time_s(k),
+            position_m: state.position.into(),
+            attitude: state.attitude.to_array(),
+            velocity_m_s: state.velocity.into(),
+            angular_rate_rad_s: state.angular_rate.into(),
+            power_w: torques
+                .iter()
+                .zip(&state.joint_rates)
+                .map(|(torque, rate)| torque * rate)
+                .sum(),
+            joint_angles_rad: state.joint_angles,
+            joint_rates_rad_s: state.joint_rates,
+        });
+        if k < steps {
+            intervals.push(Interval {
+                joint_accelerations_rad_s2: accelerations.to_vec(),
+                joint_torques_n_m: torques,
+            });
+        }
+    }
+    Trajectory::new(nodes, intervals)
+}
+
+pub(crate) fn record(iteration: &Iteration) -> IterationRecord {
+    IterationRecord {
+        iteration: iteration.iteration,
+        objective: iteration.objective,
+        primal_infeasibility: iteration.primal_infeasibility,
+        dual_infeasibility: iteration.dual_infeasibility,
+        barrier_parameter: iteration.mu,
+        primal_step: iteration.alpha_primal,
+        dual_step: iteration.alpha_dual,
+    }
+}
+
+fn attempt_record(attempt: &Attempt) -> AttemptRecord {
+    let (ended, given_up) = match &attempt.end {
+        AttemptEnd::Status(ended) => (Some(status(*ended)), None),
+        AttemptEnd::GivenUp(reason) => (None, Some(reason.clone())),
+    };
+    AttemptRecord {
+        steps: attempt.steps,
+        optimizer: used_optimizer(attempt.optimizer),
+        linear_solver: match attempt.linear_solver {
+            UsedLinearSolver::Stage => "stage".to_owned(),
+            UsedLinearSolver::Mumps | UsedLinearSolver::MumpsAfterStage => "mumps".to_owned(),
+        },
+        status: ended,
+        given_up,
+        iterations: attempt.iterations,
+        seconds: attempt.time.as_secs_f64(),
+    }
+}
+
+fn used_optimizer(optimizer: Optimizer) -> UsedOptimizer {
+    match optimizer {
+        Optimizer::Interior => UsedOptimizer::Interior,
+        Optimizer::Ipopt => UsedOptimizer::Ipopt,
+    }
+}
+
+fn status(status: righting_ocp::Status) -> Status {
+    use righting_ocp::Status as Ipopt;
+    match status {
+        Ipopt::Solved => Status::Solved,
+        Ipopt::Acceptable | Ipopt::FeasiblePointFound => Status::Acceptable,
+        Ipopt::Infeasible => Status::Infeasible,
+        Ipopt::IterationLimit => Status::IterationLimit,
+        Ipopt::CpuTimeLimit | Ipopt::WallTimeLimit => Status::TimeLimit,
+        Ipopt::UserStop => Status::Interrupted,
+        Ipopt::SearchDirectionTooSmall => Status::SearchDirectionTooSmall,
+        Ipopt::Diverging => Status::Diverging,
+        Ipopt::RestorationFailed => Status::RestorationFailed,
+        Ipopt::InvalidNumber => Status::EvaluationError,
+        _ => Status::InternalError,
+    }
+}

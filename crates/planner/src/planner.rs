@@ -1,0 +1,163 @@
+//! From a scenario to a finished, verified plan.
+
+use std::num::NonZeroUsize;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use righting_ocp::{Control, OcpError};
+use righting_results::IterationRecord;
+use righting_results::trajectory::Trajectory;
+use righting_scenario::Scenario;
+use righting_scenario::error::ShapeError;
+
+use crate::library::Library;
+use crate::planned::{Ending, Planned};
+use crate::search::Search;
+
+/// Plans maneuvers and verifies what it planned.
+///
+/// From the paper's constant guess the problem is solved on the asked grid. For any other guess,
+/// several initial guesses are ranked on a coarse grid in the reduced form, and the best of those
+/// solutions is carried to the asked grid and form; if that fails, the solution from the constant guess
+/// is the answer. Ipopt makes the last solve unless the scenario asks otherwise.
+///
+/// ```
+/// use std::num::NonZeroUsize;
+/// use std::path::Path;
+/// use std::time::Duration;
+///
+/// use righting_ocp::Control;
+/// use righting_planner::Planner;
+/// use righting_scenario::Scenario;
+///
+/// let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
+/// let mut planner = Planner::new().threads(NonZeroUsize::MIN).time_limit(Duration::from_secs(60));
+/// let planned = planner.plan(&scenario, &mut |_| Control::Continue)?;
+/// assert!(planned.solution.verification.passed);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Planner<'a> {
+    threads: NonZeroUsize,
+    earlier: Option<&'a Trajectory>,
+    library: Option<&'a mut Library>,
+    time_limit: Option<Duration>,
+    program: String,
+}
+
+impl Default for Planner<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'a> Planner<'a> {
+    /// One that uses all cores, starts from the scenario's guesses alone and takes the time it needs.
+    pub fn new() -> Self {
+        Self {
+            threads: thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
+            earlier: None,
+            library: None,
+            time_limit: None,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+
+    /// Solves so many ranked guesses at a time at most. The plan does not depend on it.
+    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// Starts from an earlier plan too: of the same arm for another angle, axis, duration, grid or mass.
+    pub fn warm_start(mut self, earlier: &'a Trajectory) -> Self {
+        self.earlier = Some(earlier);
+        self
+    }
+
+    /// Starts from the nearest plan of a library too, unless there is a [`warm_start`](Self::warm_start).
+    /// A note of the solution says which.
+    pub fn library(mut self, library: &'a mut Library) -> Self {
+        self.library = Some(library);
+        self
+    }
+
+    /// Stops a plan that takes longer; its status is then
+    /// [`TimeLimit`](righting_results::Status::TimeLimit). Checked once an iteration.
+    pub fn time_limit(mut self, limit: Duration) -> Self {
+        self.time_limit = Some(limit);
+        self
+    }
+
+    /// What `versions.righting` of the solution says; this crate's version if nothing is said.
+    pub fn program(mut self, version: &str) -> Self {
+        version.clone_into(&mut self.program);
+        self
+    }
+
+    /// Plans the maneuver of a scenario and verifies the plan. `observer` sees every iteration and may
+    /// stop the solve, whose status is then [`Interrupted`](righting_results::Status::Interrupted).
+    ///
+    /// Not converging is a status of the solution; so is failing the verification.
+    ///
+    /// # Errors
+    /// [`PlanError::Ocp`] when there is nothing to optimize, [`PlanError::Shape`] when the earlier plan's
+    /// arm has another number of joints.
+    pub fn plan(
+        &mut self,
+        scenario: &Scenario,
+        observer: &mut dyn FnMut(&IterationRecord) -> Control,
+    ) -> Result<Planned, PlanError> {
+        let started = Instant::now();
+        let (nearest, note) = match (self.earlier, &mut self.library) {
+            (None, Some(library)) => {
+                let nearest = library.nearest(scenario);
+                let note = library.note(nearest.as_ref());
+                (nearest, Some(note))
+            }
+            _ => (None, None),
+        };
+        let earlier = self.earlier.or(nearest.as_ref().map(|near| &near.trajectory));
+        require_same_joints(scenario, earlier)?;
+
+        let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
+        let mut is_late = false;
+        let mut watched = |record: &IterationRecord| {
+            is_late |= limit.is_some_and(|limit| started.elapsed() > limit);
+            if is_late { Control::Stop } else { observer(record) }
+        };
+        let mut found = Search::new(scenario, self.threads, earlier, &mut watched)?.run()?;
+        found.notes.splice(..0, note);
+        let ending = match (found.is_interrupted, is_late) {
+            (false, _) => Ending::Finished,
+            (true, true) => Ending::TimeLimit,
+            (true, false) => Ending::Interrupted,
+        };
+        Ok(Planned::new(scenario, found, ending, &self.program)?)
+    }
+}
+
+fn require_same_joints(
+    scenario: &Scenario,
+    earlier: Option<&Trajectory>,
+) -> Result<(), ShapeError> {
+    let needed = scenario.system().joint_count();
+    match earlier.map(Trajectory::joints) {
+        Some(found) if found != needed => {
+            Err(ShapeError { what: "joints of the earlier plan".to_owned(), found, needed })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why there is no plan at all. A plan that did not converge is one, with its status.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The optimal control problem was refused.
+    #[error(transparent)]
+    Ocp(#[from] OcpError),
+    /// The parts of the trajectory do not fit together.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}

@@ -1,0 +1,237 @@
+//! Solving one variant of a scenario until it succeeds or has had every chance.
+
+use std::path::Path;
+
+use righting_ocp::Control;
+use righting_results::solution::{IterationRecord, Status, Terminal};
+use righting_scenario::file::{Guess, LowDiscrepancyStarts};
+use righting_scenario::scenario::{Maneuver, Scenario};
+
+use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
+use crate::planner::Planner;
+
+/// To see whether effort stands in the way, its weight is multiplied by this.
+const CHEAP_EFFORT: f64 = 1e-3;
+
+/// The tries of a search.
+pub(super) struct Trials<'a> {
+    scenario: &'a Scenario,
+    settings: ReachSettings,
+    /// Detumble: the rate that is good enough, deg/s.
+    goal_deg_s: Option<f64>,
+    watch: &'a mut dyn FnMut(Progress<'_>) -> Control,
+    pub(super) tries: Vec<Try>,
+    /// Each harder than the one before.
+    pub(super) successes: Vec<(f64, Reached)>,
+    /// The easiest one.
+    failure: Option<(f64, Reached)>,
+    pub(super) is_interrupted: bool,
+}
+
+impl<'a> Trials<'a> {
+    pub(super) fn new(
+        scenario: &'a Scenario,
+        settings: ReachSettings,
+        bound_deg_s: Option<f64>,
+        watch: &'a mut dyn FnMut(Progress<'_>) -> Control,
+    ) -> Self {
+        Self {
+            scenario,
+            settings,
+            goal_deg_s: bound_deg_s.map(|bound| bound * (1.0 + settings.within_percent / 100.0)),
+            watch,
+            tries: Vec::new(),
+            successes: Vec::new(),
+            failure: None,
+            is_interrupted: false,
+        }
+    }
+
+    /// Whether the maneuver with this duration, s, or angle, deg, succeeds; none if the caller
+    /// stopped its solve.
+    pub(super) fn attempt(&mut self, value: f64) -> Result<Option<bool>, ReachError> {
+        let scenario = self.variant(value)?;
+        let neighbor = self.successes.last().map(|(value, _)| *value);
+        let mut starts = vec![StartedFrom::Cold];
+        if neighbor.is_some() {
+            starts.insert(0, StartedFrom::Neighbor);
+        }
+        if self.settings.starts > 0 {
+            starts.push(StartedFrom::LowDiscrepancy);
+        }
+        let mut iterations = 0;
+        let mut best: Option<(StartedFrom, Reached)> = None;
+        for start in starts {
+            let found = self.solve(&scenario, value, start)?;
+            if self.is_interrupted {
+                return Ok(None);
+            }
+            iterations += found
+                .planned
+                .solution
+                .attempts
+                .iter()
+                .map(|attempt| attempt.iterations)
+                .sum::<usize>();
+            let succeeded = self.succeeds(&found);
+            if succeeded || best.as_ref().is_none_or(|(_, best)| self.misses_less(&found, best)) {
+                best = Some((start, found));
+            }
+            if succeeded {
+                break;
+            }
+        }
+        let Some((start, found)) = best else { return Ok(None) };
+        let tried = self.tried(start, neighbor, iterations, &found);
+        let succeeded = tried.succeeded;
+        let control = (self.watch)(Progress::Tried(&tried));
+        self.tries.push(tried);
+        match succeeded {
+            true => self.successes.push((value, found)),
+            false => self.failure = Some((value, found)),
+        }
+        self.is_interrupted |= control == Control::Stop;
+        Ok(Some(succeeded))
+    }
+
+    /// What keeps the easiest failure from succeeding: effort that costs too much, or a limit of the
+    /// arm.
+    pub(super) fn what_is_in_the_way(&mut self) -> Result<Option<String>, ReachError> {
+        let Some((value, failed)) = self.failure.take() else { return Ok(None) };
+        let weight = CHEAP_EFFORT * failed.scenario.weights().control;
+        if !failed.planned.solution.status.is_acceptable() || weight == 0.0 {
+            return Ok(None);
+        }
+        let mut file = failed.scenario.resolved().clone();
+        file.weights.control = Some(weight);
+        let cheap = Scenario::from_file(file, Path::new(self.scenario.name()))?;
+        let watch = &mut *self.watch;
+        let mut planner = Planner::new().warm_start(&failed.planned.trajectory);
+        let planned = planner.plan(&cheap, &mut |record| watch(Progress::Iteration(record)))?;
+        let found = Reached { scenario: cheap, planned };
+        if found.planned.solution.status == Status::Interrupted {
+            self.is_interrupted = true;
+            return Ok(None);
+        }
+        let at = self.shown(value);
+        let note = match self.succeeds(&found) {
+            true => format!(
+                "{at} fails because effort costs too much, not because of the arm: it succeeds \
+                 with weights.control {weight:.1e}"
+            ),
+            false => format!("{at} fails even with weights.control {weight:.1e}"),
+        };
+        Ok(Some(note))
+    }
+
+    fn variant(&self, value: f64) -> Result<Scenario, ReachError> {
+        let mut file = self.scenario.resolved().clone();
+        match self.settings.quantity {
+            Quantity::Duration => file.horizon.duration_s = value,
+            Quantity::Angle => {
+                let asked = file.maneuver.angle_deg.unwrap_or(1.0);
+                file.maneuver.angle_deg = Some(value.copysign(asked));
+            }
+        }
+        Ok(Scenario::from_file(file, Path::new(self.scenario.name()))?)
+    }
+
+    fn solve(
+        &mut self,
+        scenario: &Scenario,
+        value: f64,
+        start: StartedFrom,
+    ) -> Result<Reached, ReachError> {
+        let watch = &mut *self.watch;
+        let mut stop = watch(Progress::Trying { value, start }) == Control::Stop;
+        let mut on_iteration = |record: &IterationRecord| {
+            stop |= watch(Progress::Iteration(record)) == Control::Stop;
+            if stop { Control::Stop } else { Control::Continue }
+        };
+        let planned = match (start, self.successes.last()) {
+            (StartedFrom::Neighbor, Some((_, neighbor))) => {
+                let mut planner = Planner::new().warm_start(&neighbor.planned.trajectory);
+                planner.plan(scenario, &mut on_iteration)?
+            }
+            (StartedFrom::LowDiscrepancy, _) => {
+                let mut file = scenario.resolved().clone();
+                let starts = self.settings.starts;
+                file.solver.guess = Some(Guess::Starts(LowDiscrepancyStarts { starts, seed: 0 }));
+                let many = Scenario::from_file(file, Path::new(self.scenario.name()))?;
+                Planner::new().plan(&many, &mut on_iteration)?
+            }
+            _ => Planner::new().plan(scenario, &mut on_iteration)?,
+        };
+        self.is_interrupted |= stop || planned.solution.status == Status::Interrupted;
+        Ok(Reached { scenario: scenario.clone(), planned })
+    }
+
+    fn succeeds(&self, found: &Reached) -> bool {
+        found.planned.solution.verification.passed
+            && self.goal_deg_s.is_none_or(|goal| terminal(found).angular_rate_deg_s <= goal)
+    }
+
+    /// Whether a failed plan comes closer than another: a converged one does, then what it misses
+    /// decides.
+    fn misses_less(&self, a: &Reached, b: &Reached) -> bool {
+        let rank = |found: &Reached| {
+            let terminal = terminal(found);
+            let missed = match self.goal_deg_s {
+                Some(_) => terminal.angular_rate_deg_s,
+                None => terminal.attitude_error,
+            };
+            (!found.planned.solution.status.is_acceptable(), missed)
+        };
+        let ((a_failed, a_missed), (b_failed, b_missed)) = (rank(a), rank(b));
+        a_failed.cmp(&b_failed).then(a_missed.total_cmp(&b_missed)).is_lt()
+    }
+
+    fn tried(
+        &self,
+        start: StartedFrom,
+        neighbor: Option<f64>,
+        iterations: usize,
+        found: &Reached,
+    ) -> Try {
+        let terminal = terminal(found);
+        let succeeded = self.succeeds(found);
+        let shortfall = match (succeeded, found.planned.solution.verification.failures().next()) {
+            (true, _) => None,
+            (false, _) if !found.planned.solution.status.is_acceptable() => {
+                Some("no plan".to_owned())
+            }
+            (false, Some(check)) => Some(check.to_string()),
+            (false, None) => self.goal_deg_s.map(|goal| {
+                let left = terminal.angular_rate_deg_s;
+                format!("angular rate at the end: {left:.3} deg/s, at most {goal:.3}")
+            }),
+        };
+        Try {
+            duration_s: found.scenario.horizon().duration_s,
+            angle_deg: match found.scenario.maneuver() {
+                Maneuver::Slew(_) => found.scenario.resolved().maneuver.angle_deg,
+                Maneuver::Detumble => None,
+            },
+            succeeded,
+            is_verified: found.planned.solution.verification.passed,
+            status: found.planned.solution.status,
+            start,
+            neighbor,
+            iterations,
+            objective: found.planned.solution.objective,
+            terminal,
+            shortfall,
+        }
+    }
+
+    fn shown(&self, value: f64) -> String {
+        match self.settings.quantity {
+            Quantity::Duration => format!("{value} s"),
+            Quantity::Angle => format!("{value}\u{b0}"),
+        }
+    }
+}
+
+fn terminal(found: &Reached) -> Terminal {
+    found.planned.solution.terminal
+}

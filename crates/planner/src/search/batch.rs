@@ -1,0 +1,97 @@
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPoolBuilder;
+use righting_ocp::{Control, Grid, Guess, OcpError, Settings, Solution};
+use righting_results::IterationRecord;
+
+use super::model::Model;
+
+/// How often a solve shows where it is: an iteration takes less time than waking the thread that shows
+/// it.
+const SHOW_EVERY: Duration = Duration::from_millis(20);
+
+enum Event {
+    Iteration(IterationRecord),
+    Solved(usize, Box<Result<Solution, OcpError>>),
+}
+
+/// Solves of one problem from several starts.
+pub(super) struct Batch<'a> {
+    pub(super) model: &'a Model,
+    pub(super) grid: Grid,
+    pub(super) starts: &'a [(Guess, Settings)],
+}
+
+impl Batch<'_> {
+    /// Solves from every start, on so many threads at most, and returns the solutions in the order
+    /// of the starts. `stop` ends all of them; `on_iteration` is only called from this thread.
+    ///
+    /// The solves share nothing that changes: which thread takes which start does not show.
+    pub(super) fn solve(
+        &self,
+        threads: NonZeroUsize,
+        on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
+        stop: &AtomicBool,
+    ) -> Result<Vec<Solution>, OcpError> {
+        let threads = threads.get().min(self.starts.len());
+        // A machine that gives no threads still has this one.
+        let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else {
+            return self.solve_here(on_iteration, stop);
+        };
+        let mut solved: Vec<Option<Result<Solution, OcpError>>> =
+            self.starts.iter().map(|_| None).collect();
+        pool.in_place_scope_fifo(|scope| {
+            let (sender, events) = mpsc::channel();
+            for (index, start) in self.starts.iter().enumerate() {
+                let sender = sender.clone();
+                scope.spawn_fifo(move |_| {
+                    let mut shown = Instant::now();
+                    let outcome = self.solve_one(start, |record| {
+                        if shown.elapsed() > SHOW_EVERY {
+                            shown = Instant::now();
+                            // The receiver outlives the scope.
+                            let _ = sender.send(Event::Iteration(record));
+                        }
+                        match stop.load(Ordering::Relaxed) {
+                            true => Control::Stop,
+                            false => Control::Continue,
+                        }
+                    });
+                    let _ = sender.send(Event::Solved(index, Box::new(outcome)));
+                });
+            }
+            drop(sender);
+            for event in events {
+                match event {
+                    Event::Iteration(record) => {
+                        if on_iteration(&record) == Control::Stop {
+                            stop.store(true, Ordering::Relaxed);
+                        }
+                    }
+                    Event::Solved(index, outcome) => solved[index] = Some(*outcome),
+                }
+            }
+        });
+        solved.into_iter().flatten().collect()
+    }
+
+    fn solve_here(
+        &self,
+        on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
+        stop: &AtomicBool,
+    ) -> Result<Vec<Solution>, OcpError> {
+        let solve = |start| self.solve_one(start, super::stoppable(on_iteration, stop));
+        self.starts.iter().map(solve).collect()
+    }
+
+    fn solve_one(
+        &self,
+        (guess, settings): &(Guess, Settings),
+        on_iteration: impl FnMut(IterationRecord) -> Control,
+    ) -> Result<Solution, OcpError> {
+        self.model.solve(self.grid, guess.clone(), settings, on_iteration)
+    }
+}

@@ -1,0 +1,77 @@
+use righting_ocp::{
+    Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Samples, Settings, Solution,
+    StageFunctions, Start, refine,
+};
+use righting_results::solution::IterationRecord;
+use righting_scenario::file::Formulation;
+use righting_scenario::scenario::Scenario;
+
+use crate::formulation::{Coordinates, FormulatedManeuver};
+use crate::initial_guess::InitialGuesses;
+use crate::planned::record;
+
+/// A form of the problem with its compiled functions.
+pub(super) struct Model {
+    pub(super) coordinates: Coordinates,
+    /// x_0.
+    pub(super) initial: Vec<f64>,
+    pub(super) functions: StageFunctions,
+}
+
+impl Model {
+    pub(super) fn compile(scenario: &Scenario, formulation: Formulation) -> Result<Self, OcpError> {
+        let FormulatedManeuver { problem, coordinates, initial } =
+            FormulatedManeuver::in_form(scenario, formulation);
+        Ok(Self { functions: StageFunctions::compile(&problem)?, coordinates, initial })
+    }
+
+    pub(super) fn initial_guesses<'a>(
+        &'a self,
+        scenario: &'a Scenario,
+        steps: usize,
+    ) -> InitialGuesses<'a> {
+        InitialGuesses { scenario, coordinates: &self.coordinates, initial: &self.initial, steps }
+    }
+
+    pub(super) fn solve(
+        &self,
+        grid: Grid,
+        guess: Guess,
+        settings: &Settings,
+        mut on_iteration: impl FnMut(IterationRecord) -> Control,
+    ) -> Result<Solution, OcpError> {
+        let mut program = MultipleShooting::new(&self.functions, grid, &self.initial)?;
+        program.solve(&Start::Guess(guess), settings, |iteration| on_iteration(record(iteration)))
+    }
+
+    pub(super) fn refine(
+        &self,
+        grid: Grid,
+        between: &[usize],
+        coarse: Solution,
+        settings: &Settings,
+        mut on_iteration: impl FnMut(IterationRecord) -> Control,
+    ) -> Result<Solution, OcpError> {
+        let on_iteration = |iteration: &righting_ocp::Iteration| on_iteration(record(iteration));
+        let initial = &self.initial;
+        refine(&self.functions, grid, between, initial, coarse.point, settings, on_iteration)
+    }
+
+    /// How the Lagrangian curves at a solution on `grid`.
+    pub(super) fn curvature(&self, grid: Grid, solution: &Solution) -> Result<Curvature, OcpError> {
+        if solution.curves_upwards {
+            return Ok(Curvature::Upward);
+        }
+        MultipleShooting::new(&self.functions, grid, &self.initial)?.curvature(&solution.point)
+    }
+
+    /// The motion of a solution in another model's form, as a guess for this one.
+    pub(super) fn guess_from(&self, other: &Model, solution: &Solution) -> Guess {
+        let mut states = Samples::new(self.coordinates.dimension());
+        for row in solution.states.rows() {
+            let state = other.coordinates.free_floating_state(row);
+            states.push(&self.coordinates.of_free_floating_state(&state));
+        }
+        Guess { states, controls: solution.controls.clone() }
+    }
+}

@@ -1,0 +1,96 @@
+//! How the optimizer is set for each kind of solve.
+
+use righting_ocp::{LinearSolver, Optimizer, Options, Settings};
+use righting_scenario::file::{self, NamedGuess};
+use righting_scenario::scenario::{Maneuver, Scenario};
+
+/// Tolerance of ranking: tight enough for the barrier not to change the order of small objectives …
+const COARSE_TOLERANCE: f64 = 1e-7;
+/// … and of a detumble, what not to act would cost times this, …
+const DETUMBLE_TOLERANCE: f64 = 1e-6;
+/// … up to this.
+const MOST_DETUMBLE_TOLERANCE: f64 = 2e-5;
+/// Iterations after which a guess on the coarse grid is given up.
+const COARSE_ITERATIONS: u32 = 300;
+/// A step that is still too long there after so many halvings is taken all the same.
+const COARSE_HALVINGS: i32 = 5;
+/// After so many shortened steps Ipopt's watchdog tries full ones (by itself after 10). Detumbles end in
+/// curved valleys, along which the line search would creep.
+const WATCHDOG_TRIGGER: u32 = 3;
+/// And so many of them (by itself 3): a step out of the valley takes some to come back to its floor.
+const WATCHDOG_TRIALS: u32 = 8;
+
+/// Of a ranked guess on the coarse grid.
+pub(super) fn coarse(scenario: &Scenario) -> Settings {
+    let mut settings = intermediate(scenario);
+    settings.ipopt.tolerance = settings.ipopt.tolerance.max(coarse_tolerance(scenario));
+    settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
+    // From so far away corrections of single steps save none.
+    settings.ipopt.max_soc = 0;
+    settings.ipopt.accept_after_max_steps = COARSE_HALVINGS;
+    settings.retry_at_iteration_limit = false;
+    settings
+}
+
+fn coarse_tolerance(scenario: &Scenario) -> f64 {
+    match scenario.maneuver() {
+        Maneuver::Slew(_) => COARSE_TOLERANCE,
+        Maneuver::Detumble => {
+            let rate_rad_s = scenario.initial().angular_rate_rad_s.norm();
+            let of_drifting = scenario.weights().angular_rate * rate_rad_s * rate_rad_s;
+            (DETUMBLE_TOLERANCE * of_drifting).clamp(COARSE_TOLERANCE, MOST_DETUMBLE_TOLERANCE)
+        }
+    }
+}
+
+/// Of a solve whose solution is only the start of another one.
+pub(super) fn intermediate(scenario: &Scenario) -> Settings {
+    Settings { optimizer: Optimizer::Interior, ..delivered(scenario) }
+}
+
+/// Of a solve that ends in a plan.
+pub(super) fn delivered(scenario: &Scenario) -> Settings {
+    let plain = plain(scenario);
+    Settings {
+        ipopt: Options {
+            watchdog_shortened_iter_trigger: WATCHDOG_TRIGGER,
+            watchdog_trial_iter_max: WATCHDOG_TRIALS,
+            // Blocks of dense factors leave residuals near rounding: over the shipped maneuvers Ipopt's
+            // check of every step changes no iteration and takes a quarter of the time.
+            fast_step_computation: true,
+            ..plain.ipopt
+        },
+        ..plain
+    }
+}
+
+/// Of the asked grid from the constant guess: where the scenario asks for that guess, Ipopt is as it is
+/// by itself, as the paper used it.
+pub(super) fn from_constant_guess(scenario: &Scenario) -> Settings {
+    match scenario.solver().guess {
+        file::Guess::Named(NamedGuess::Constant) => plain(scenario),
+        _ => delivered(scenario),
+    }
+}
+
+/// Ipopt's own defaults, and what the scenario says.
+fn plain(scenario: &Scenario) -> Settings {
+    let solver = scenario.solver();
+    Settings {
+        ipopt: Options {
+            tolerance: solver.tolerance,
+            max_iterations: solver.max_iterations as u32,
+            ..Options::default()
+        },
+        optimizer: match solver.optimizer {
+            file::Optimizer::Ipopt | file::Optimizer::Auto => Optimizer::Ipopt,
+            file::Optimizer::Interior => Optimizer::Interior,
+        },
+        linear_solver: match solver.linear_solver {
+            file::LinearSolver::Auto => LinearSolver::Auto,
+            file::LinearSolver::Mumps => LinearSolver::Mumps,
+            file::LinearSolver::Stage => LinearSolver::Stage,
+        },
+        ..Settings::default()
+    }
+}

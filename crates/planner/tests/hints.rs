@@ -1,0 +1,64 @@
+//! A slew that misses its target says what would help, and that does help.
+
+use righting_ocp::Control;
+use righting_planner::{Planned, Planner};
+use righting_scenario::Scenario;
+use righting_test_support::{shipped, varied};
+use righting_verifier::verify;
+
+/// The 2-joint slew in so many seconds, with the effort of 600 steps on 60.
+fn slew_in(duration_s: f64, control: f64) -> Scenario {
+    varied(&shipped("slew_2dof"), |file| {
+        file.horizon.duration_s = duration_s;
+        file.horizon.steps = 60.0;
+        file.weights.control = Some(control);
+    })
+}
+
+fn planned(scenario: &Scenario) -> Planned {
+    Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
+}
+
+fn passes(scenario: &Scenario) -> bool {
+    verify(scenario, &planned(scenario).trajectory).passed
+}
+
+/// The duration that a note suggests.
+fn suggested_s(notes: &[String]) -> f64 {
+    let suggested = notes.iter().find_map(|note| note.split("try horizon.duration_s ").nth(1));
+    suggested.unwrap().parse().unwrap()
+}
+
+#[test]
+fn where_effort_costs_too_much_less_weight_or_more_time_helps() {
+    let scenario = slew_in(8.0, 0.1);
+    let notes = planned(&scenario).solution.notes;
+    assert!(notes[0].starts_with("misses its target by 0."), "{notes:?}");
+    assert!(notes[1].contains("no joint is at a limit"), "{notes:?}");
+    let longer_s = suggested_s(&notes);
+    assert!((8.0..16.0).contains(&longer_s), "{notes:?}");
+    assert!(passes(&slew_in(longer_s, 0.1)) && passes(&slew_in(8.0, 1e-4)));
+}
+
+#[test]
+fn where_limits_are_in_the_way_they_are_named_and_more_time_helps() {
+    let scenario = slew_in(6.0, 0.1);
+    let notes = planned(&scenario).solution.notes;
+    assert!(notes.iter().any(|note| note.contains("limit") && note.ends_with("% of the time")));
+    assert!(notes.iter().any(|note| note.contains("righting reach")), "{notes:?}");
+    let longer_s = suggested_s(&notes);
+    assert!((6.0..12.0).contains(&longer_s) && passes(&slew_in(longer_s, 1e-4)), "{notes:?}");
+    assert!(!passes(&slew_in(6.0, 1e-4)));
+}
+
+#[test]
+fn a_slew_that_nothing_asks_for_says_so() {
+    let aimless = varied(&slew_in(30.0, 0.01), |file| file.weights.attitude = Some(0.0));
+    let notes = planned(&aimless).solution.notes;
+    assert_eq!(notes[1..], ["nothing asks for the target: weights.attitude is 0"], "{notes:?}");
+}
+
+#[test]
+fn a_slew_that_arrives_has_nothing_to_say() {
+    assert!(planned(&slew_in(30.0, 0.01)).solution.notes.is_empty());
+}

@@ -1,0 +1,69 @@
+//! What a maneuver reached, and what it cost.
+
+use righting_multibody::State;
+use righting_scenario::scenario::{Maneuver, Scenario};
+
+use crate::solution::Terminal;
+use crate::trajectory::Trajectory;
+
+impl Terminal {
+    /// What the last node of a trajectory reached.
+    pub fn reached(scenario: &Scenario, trajectory: &Trajectory) -> Self {
+        Self::of(scenario, &trajectory.end().state())
+    }
+
+    /// What a state at the end of the maneuver reached.
+    pub fn of(scenario: &Scenario, end: &State<f64>) -> Self {
+        let attitude = end.attitude.normalized();
+        let (attitude_error, attitude_error_deg) = match scenario.maneuver() {
+            Maneuver::Slew(slew) => (
+                attitude.error_vector(&slew.target).norm(),
+                attitude.angle_to(&slew.target).to_degrees(),
+            ),
+            Maneuver::Detumble => (0.0, 0.0),
+        };
+        Self {
+            attitude_error,
+            attitude_error_deg,
+            angular_rate_deg_s: end.angular_rate.norm().to_degrees(),
+            joint_rate_deg_s: sum_of_squares(&end.joint_rates).sqrt().to_degrees(),
+        }
+    }
+
+    /// By how much a detumble has reduced the base's angular rate, %.
+    pub fn reduction_percent(&self, scenario: &Scenario) -> f64 {
+        let start_deg_s = scenario.initial().angular_rate_rad_s.norm().to_degrees();
+        100.0 * (1.0 - self.angular_rate_deg_s / start_deg_s)
+    }
+}
+
+/// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu over the intervals and the
+/// weighted squared errors of the last node. Position, velocity and rates shall be zero; joint
+/// angles, and the attitude of a detumble, those of the start.
+pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
+    let weights = scenario.weights();
+    let initial = scenario.initial();
+    let desired = match scenario.maneuver() {
+        Maneuver::Slew(slew) => slew.target,
+        Maneuver::Detumble => initial.attitude,
+    };
+    let effort: f64 = trajectory
+        .intervals()
+        .iter()
+        .map(|interval| sum_of_squares(&interval.joint_accelerations_rad_s2))
+        .sum();
+    let end = trajectory.end().state();
+    let angles = end.joint_angles.iter().zip(&initial.joint_angles_rad);
+    let joint_error: f64 = angles.map(|(end, start)| (end - start).powi(2)).sum();
+    weights.control * effort
+        + weights.position * end.position.norm_squared()
+        + weights.attitude * end.attitude.error_vector(&desired).norm_squared()
+        + weights.velocity * end.velocity.norm_squared()
+        + weights.angular_rate * end.angular_rate.norm_squared()
+        + weights.joint_angle * joint_error
+        + weights.joint_rate * sum_of_squares(&end.joint_rates)
+}
+
+fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum()
+}

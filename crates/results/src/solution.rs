@@ -1,0 +1,237 @@
+//! What a solve hands back besides the trajectory: the contents of `solution.json`.
+
+use std::path::Path;
+
+use righting_scenario::error::Error;
+use righting_scenario::json::{Document, FileKind};
+use righting_scenario::{file, file_io};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::finite_or_null::FiniteOrNull;
+use crate::verification::Verification;
+
+/// Value of the field `schema`.
+pub const SCHEMA: &str = "righting.solution/1";
+
+/// The contents of `solution.json`.
+///
+/// A number that is not finite (the objective of a solve that broke down) is `null` in the file and
+/// NaN here.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "Righting solution")]
+pub struct Solution {
+    /// "righting.solution/1".
+    pub schema: String,
+    /// The scenario with its system inline and every default filled in.
+    pub scenario: file::Scenario,
+    /// SHA-256 of the resolved scenario's compact JSON, hexadecimal.
+    pub scenario_sha256: String,
+    /// What computed it.
+    pub versions: Versions,
+    /// How the optimizer ended.
+    pub status: Status,
+    /// Value of the objective, in the scenario's weights.
+    #[serde(with = "FiniteOrNull")]
+    pub objective: f64,
+    /// Number of optimizer iterations on the asked grid; those of the starts and the coarser grids
+    /// before it are not among them.
+    pub iterations: usize,
+    /// Largest violation of any constraint of the nonlinear program, unscaled.
+    #[serde(with = "FiniteOrNull")]
+    pub constraint_violation: f64,
+    /// What the last node reached.
+    pub terminal: Terminal,
+    /// Wall-clock times.
+    pub timing_s: Timing,
+    /// Outcome of the independent check.
+    pub verification: Verification,
+    /// Detumble: no motion that stops the arm can leave less angular rate, deg/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound_deg_s: Option<f64>,
+    /// Detumble: how much of the initial angular rate the plan takes out, %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduction_percent: Option<f64>,
+    /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// Every attempt to solve, in order: the starts on a coarse grid, then finer grids up to the asked
+    /// one, with what was given up on the way.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attempts: Vec<AttemptRecord>,
+    /// One record an iteration, the starting point first; of the last solve if there were several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<IterationRecord>,
+}
+
+/// What computed a solution.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Versions {
+    /// This program.
+    pub righting: String,
+    /// Ipopt.
+    pub ipopt: String,
+    /// Who made the iterations of the last solve.
+    #[serde(default)]
+    pub optimizer: UsedOptimizer,
+    /// The linear solver inside it, with its version where it has one.
+    pub linear_solver: String,
+}
+
+/// Who made the iterations of a solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum UsedOptimizer {
+    /// This program's own loop.
+    Interior,
+    /// Ipopt, as in every file that does not say.
+    #[default]
+    Ipopt,
+}
+
+/// One attempt to solve the problem on one grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AttemptRecord {
+    /// Number of steps of the grid.
+    pub steps: usize,
+    /// Who made the iterations.
+    pub optimizer: UsedOptimizer,
+    /// What factorised the linear systems: "stage" or "mumps".
+    pub linear_solver: String,
+    /// How it ended; absent where it was given up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub status: Option<Status>,
+    /// Why it was given up, and another attempt made from the same start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub given_up: Option<String>,
+    /// Number of iterations.
+    pub iterations: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// How the optimizer ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Status {
+    /// Converged to the tolerance.
+    Solved,
+    /// Converged to the looser, acceptable tolerance.
+    Acceptable,
+    /// Converged to a point of locally least infeasibility.
+    Infeasible,
+    /// Stopped by the iteration limit.
+    IterationLimit,
+    /// Stopped by the time limit.
+    TimeLimit,
+    /// Stopped by the user.
+    Interrupted,
+    /// The search direction became too small to make progress.
+    SearchDirectionTooSmall,
+    /// The iterates diverged.
+    Diverging,
+    /// The restoration phase failed.
+    RestorationFailed,
+    /// A function could not be evaluated.
+    EvaluationError,
+    /// The optimizer failed in any other way.
+    InternalError,
+}
+
+impl Status {
+    /// Whether the plan converged, and so deserves a check.
+    pub fn is_acceptable(self) -> bool {
+        matches!(self, Self::Solved | Self::Acceptable)
+    }
+}
+
+/// What the last node reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Terminal {
+    /// Norm of the vector part of the attitude error quaternion; 0 for a detumble.
+    #[serde(with = "FiniteOrNull")]
+    pub attitude_error: f64,
+    /// Angle of the attitude error, deg.
+    #[serde(with = "FiniteOrNull")]
+    pub attitude_error_deg: f64,
+    /// Norm of the base's angular rate, deg/s.
+    #[serde(with = "FiniteOrNull")]
+    pub angular_rate_deg_s: f64,
+    /// Norm of the joint rates, all joints together, deg/s.
+    #[serde(with = "FiniteOrNull")]
+    pub joint_rate_deg_s: f64,
+}
+
+/// Wall-clock times, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timing {
+    /// Reading and checking the scenario.
+    pub load: f64,
+    /// Tracing, differentiating and compiling the stage functions.
+    pub trace: f64,
+    /// Finding the initial guess.
+    pub guess: f64,
+    /// Evaluating functions and derivatives, within `solve`.
+    pub evaluate: f64,
+    /// Factorising and solving linear systems, within `solve`.
+    pub linear_algebra: f64,
+    /// The optimizer, all told.
+    pub solve: f64,
+    /// The independent check.
+    pub verify: f64,
+    /// From the command to the plan's files; what shows the plan is drawn after them.
+    pub total: f64,
+}
+
+/// The optimizer after one iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IterationRecord {
+    /// Number of the iteration; 0 is the starting point.
+    pub iteration: usize,
+    /// Objective.
+    #[serde(with = "FiniteOrNull")]
+    pub objective: f64,
+    /// Primal infeasibility, unscaled.
+    #[serde(with = "FiniteOrNull")]
+    pub primal_infeasibility: f64,
+    /// Dual infeasibility.
+    #[serde(with = "FiniteOrNull")]
+    pub dual_infeasibility: f64,
+    /// Barrier parameter µ.
+    #[serde(with = "FiniteOrNull")]
+    pub barrier_parameter: f64,
+    /// Primal step size.
+    #[serde(with = "FiniteOrNull")]
+    pub primal_step: f64,
+    /// Dual step size.
+    #[serde(with = "FiniteOrNull")]
+    pub dual_step: f64,
+}
+
+impl Solution {
+    /// Writes `solution.json`, whole or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if the folder is missing, read-only or full.
+    pub fn write_json(&self, file: &Path) -> Result<(), Error> {
+        file_io::replace(file, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, self)?;
+            writeln!(writer)
+        })
+    }
+
+    /// Reads `solution.json`.
+    ///
+    /// # Errors
+    /// Those of reading, and the JSON path of what is wrong in the file.
+    pub fn read_json(file: &Path) -> Result<Self, Error> {
+        let document = Document::read(file, FileKind::Solution)?;
+        document.decode()
+    }
+}
+
+/// The JSON Schema (draft 2020-12) of `solution.json`.
+pub fn solution_schema() -> serde_json::Value {
+    schemars::schema_for!(Solution).to_value()
+}

@@ -1,0 +1,162 @@
+//! A planned maneuver, node by node.
+
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State};
+use righting_scenario::error::ShapeError;
+
+/// The free-floating system at one instant, with the power its joints take.
+///
+/// Position and velocity are those of the base's body-frame origin in inertial axes; the attitude
+/// quaternion turns body vectors into inertial ones; the angular rate is in body axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Time since the start.
+    pub time_s: f64,
+    /// Position of the body-frame origin, inertial axes.
+    pub position_m: [f64; 3],
+    /// Attitude, body → inertial, Hamilton, scalar first (w, x, y, z).
+    pub attitude: [f64; 4],
+    /// Velocity of the body-frame origin, inertial axes.
+    pub velocity_m_s: [f64; 3],
+    /// Angular rate of the base, body axes.
+    pub angular_rate_rad_s: [f64; 3],
+    /// Joint angles, one a joint.
+    pub joint_angles_rad: Vec<f64>,
+    /// Joint rates, one a joint.
+    pub joint_rates_rad_s: Vec<f64>,
+    /// Mechanical power of the joints Σ τ q̇ with the control of the interval that starts here; at
+    /// the last node, of the interval that ends there.
+    pub power_w: f64,
+}
+
+impl Node {
+    /// The state of the full form.
+    pub fn state(&self) -> State<f64> {
+        State {
+            position: Vector3::from(self.position_m),
+            attitude: Quaternion::from_array(self.attitude),
+            velocity: Vector3::from(self.velocity_m_s),
+            angular_rate: Vector3::from(self.angular_rate_rad_s),
+            joint_angles: self.joint_angles_rad.clone(),
+            joint_rates: self.joint_rates_rad_s.clone(),
+        }
+    }
+}
+
+/// What acts between node k and node k + 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interval {
+    /// Joint accelerations, held over the interval: the control.
+    pub joint_accelerations_rad_s2: Vec<f64>,
+    /// Joint torques at the interval's first node.
+    pub joint_torques_n_m: Vec<f64>,
+}
+
+/// A trajectory of N intervals between N + 1 nodes; N ≥ 1, and every part has the same joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    nodes: Vec<Node>,
+    intervals: Vec<Interval>,
+}
+
+impl Trajectory {
+    /// Joins nodes and intervals.
+    ///
+    /// # Errors
+    /// There must be one more node than intervals, at least one interval, and the same number of
+    /// joints everywhere.
+    pub fn new(nodes: Vec<Node>, intervals: Vec<Interval>) -> Result<Self, ShapeError> {
+        let require = |what: &dyn Fn() -> String, found: usize, needed: usize| {
+            if found == needed { Ok(()) } else { Err(ShapeError { what: what(), found, needed }) }
+        };
+        let steps = nodes.len().saturating_sub(1).max(1);
+        require(&|| "intervals".to_owned(), intervals.len(), steps)?;
+        require(&|| "nodes".to_owned(), nodes.len(), steps + 1)?;
+        let joints = nodes[0].joint_angles_rad.len();
+        for (k, node) in nodes.iter().enumerate() {
+            require(&|| format!("joint angles of node {k}"), node.joint_angles_rad.len(), joints)?;
+            require(&|| format!("joint rates of node {k}"), node.joint_rates_rad_s.len(), joints)?;
+        }
+        for (k, interval) in intervals.iter().enumerate() {
+            let accelerations = interval.joint_accelerations_rad_s2.len();
+            require(&|| format!("joint accelerations of interval {k}"), accelerations, joints)?;
+            let torques = interval.joint_torques_n_m.len();
+            require(&|| format!("joint torques of interval {k}"), torques, joints)?;
+        }
+        Ok(Self { nodes, intervals })
+    }
+
+    /// The N + 1 nodes.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The N intervals; interval k lies between nodes k and k + 1.
+    pub fn intervals(&self) -> &[Interval] {
+        &self.intervals
+    }
+
+    /// Number of joints j.
+    pub fn joints(&self) -> usize {
+        self.nodes[0].joint_angles_rad.len()
+    }
+
+    /// Number of intervals N.
+    pub fn steps(&self) -> usize {
+        self.intervals.len()
+    }
+
+    /// The first node.
+    pub fn start(&self) -> &Node {
+        &self.nodes[0]
+    }
+
+    /// The last node.
+    pub fn end(&self) -> &Node {
+        &self.nodes[self.nodes.len() - 1]
+    }
+
+    /// Largest mechanical power of the joints at any node, W.
+    pub fn peak_power_w(&self) -> f64 {
+        self.nodes.iter().map(|node| node.power_w).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn node(joints: usize) -> Node {
+        Node {
+            time_s: 0.0,
+            position_m: [0.0; 3],
+            attitude: [1.0, 0.0, 0.0, 0.0],
+            velocity_m_s: [0.0; 3],
+            angular_rate_rad_s: [0.0; 3],
+            joint_angles_rad: vec![0.0; joints],
+            joint_rates_rad_s: vec![0.0; joints],
+            power_w: 0.0,
+        }
+    }
+
+    fn interval(joints: usize) -> Interval {
+        Interval {
+            joint_accelerations_rad_s2: vec![0.0; joints],
+            joint_torques_n_m: vec![0.0; joints],
+        }
+    }
+
+    #[test]
+    fn parts_that_do_not_fit_are_refused() {
+        assert!(Trajectory::new(vec![node(2), node(2)], vec![interval(2)]).is_ok());
+        let refused = |nodes, intervals| Trajectory::new(nodes, intervals).unwrap_err().what;
+        assert_eq!(refused(vec![], vec![]), "intervals");
+        assert_eq!(refused(vec![node(2)], vec![interval(2)]), "nodes");
+        assert_eq!(refused(vec![node(2), node(2)], vec![]), "intervals");
+        assert_eq!(refused(vec![node(2), node(3)], vec![interval(2)]), "joint angles of node 1");
+        assert_eq!(
+            refused(vec![node(2), node(2)], vec![interval(1)]),
+            "joint accelerations of interval 0"
+        );
+    }
+}

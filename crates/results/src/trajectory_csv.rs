@@ -1,0 +1,200 @@
+//! `trajectory.csv`: one row a node, 17 significant digits, read back bit for bit.
+
+use std::fmt;
+use std::io::{self, Write};
+use std::path::Path;
+
+use csv::{ReaderBuilder, StringRecord};
+use righting_scenario::error::{Error, Mismatch};
+use righting_scenario::file_io;
+
+use crate::trajectory::{Interval, Node, Trajectory};
+
+/// Columns before the joint columns.
+const BASE_COLUMNS: [&str; 14] = [
+    "t_s", "rx_m", "ry_m", "rz_m", "qw", "qx", "qy", "qz", "vx_m_s", "vy_m_s", "vz_m_s",
+    "wx_rad_s", "wy_rad_s", "wz_rad_s",
+];
+
+/// The header of a trajectory with `joints` joints.
+pub fn header(joints: usize) -> Vec<String> {
+    let per_joint = |prefix: &'static str, unit: &'static str| {
+        (1..=joints).map(move |i| format!("{prefix}{i}_{unit}"))
+    };
+    BASE_COLUMNS
+        .iter()
+        .map(|&name| name.to_owned())
+        .chain(per_joint("q", "rad"))
+        .chain(per_joint("dq", "rad_s"))
+        .chain(per_joint("u", "rad_s2"))
+        .chain(per_joint("tau", "n_m"))
+        .chain(std::iter::once("power_w".to_owned()))
+        .collect()
+}
+
+impl Trajectory {
+    /// Writes the table to `file`, whole or not at all: a temporary file beside it is renamed.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if the folder is missing, read-only or full.
+    pub fn write_csv(&self, file: &Path) -> Result<(), Error> {
+        file_io::replace(file, |writer| self.print_csv(writer))
+    }
+
+    /// Prints the table: the u and tau cells of the last row are empty.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn print_csv(&self, writer: &mut dyn Write) -> io::Result<()> {
+        writeln!(writer, "{}", header(self.joints()).join(","))?;
+        for (k, node) in self.nodes().iter().enumerate() {
+            write!(writer, "{:.16e}", node.time_s)?;
+            let base = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
+            let rates = [&node.angular_rate_rad_s[..], &node.joint_angles_rad];
+            for value in
+                base.into_iter().chain(rates).chain([&node.joint_rates_rad_s[..]]).flatten()
+            {
+                write!(writer, ",{value:.16e}")?;
+            }
+            match self.intervals().get(k) {
+                Some(interval) => {
+                    let accelerations = &interval.joint_accelerations_rad_s2;
+                    for value in accelerations.iter().chain(&interval.joint_torques_n_m) {
+                        write!(writer, ",{value:.16e}")?;
+                    }
+                }
+                None => write!(writer, "{}", ",".repeat(2 * self.joints()))?,
+            }
+            writeln!(writer, ",{:.16e}", node.power_w)?;
+        }
+        Ok(())
+    }
+
+    /// Reads a table written by [`write_csv`](Self::write_csv).
+    ///
+    /// # Errors
+    /// [`Error::Read`], or [`Error::Table`] and [`Error::Cell`] with the line and the column.
+    pub fn read_csv(file: &Path) -> Result<Self, Error> {
+        let source = file_io::open(file, "a trajectory table")?;
+        let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(source);
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            rows.push(record.map_err(|error| unreadable(file, error))?);
+        }
+        parse(file, &rows)
+    }
+}
+
+/// Builds a trajectory from the rows of a table, the header first.
+fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
+    let wrong = |line: u64, found: &dyn fmt::Display, expected: &dyn fmt::Display| {
+        let problem = Mismatch::new(found, expected).to_string();
+        Error::Table { file: file.to_owned(), line, problem }
+    };
+    let Some((head, body)) = rows.split_first() else {
+        return Err(wrong(1, &"an empty file", &"a header and rows"));
+    };
+    let joints = head.len().saturating_sub(BASE_COLUMNS.len() + 1) / 4;
+    let names = header(joints);
+    if joints == 0 || head.len() != names.len() {
+        let expected = "14 columns, 4 for each joint and power_w";
+        return Err(wrong(1, &format_args!("{} columns", head.len()), &expected));
+    }
+    if let Some((found, name)) = head.iter().zip(&names).find(|(found, name)| found != name) {
+        return Err(wrong(1, &format_args!("column `{found}`"), &format_args!("`{name}`")));
+    }
+    if body.len() < 2 {
+        return Err(wrong(1, &format_args!("{} rows", body.len()), &"at least 2"));
+    }
+
+    let mut nodes = Vec::with_capacity(body.len());
+    let mut intervals = Vec::with_capacity(body.len() - 1);
+    for (k, record) in body.iter().enumerate() {
+        let line = record.position().map_or(k as u64 + 2, csv::Position::line);
+        if record.len() != names.len() {
+            return Err(wrong(line, &format_args!("{} cells", record.len()), &names.len()));
+        }
+        let mut row = Row { file, line, names: &names, record, next: 0 };
+        let last = k + 1 == body.len();
+        let mut node = Node {
+            time_s: row.number()?,
+            position_m: row.numbers()?,
+            attitude: row.numbers()?,
+            velocity_m_s: row.numbers()?,
+            angular_rate_rad_s: row.numbers()?,
+            joint_angles_rad: row.several(joints)?,
+            joint_rates_rad_s: row.several(joints)?,
+            power_w: 0.0,
+        };
+        if last {
+            row.empty(2 * joints)?;
+        } else {
+            intervals.push(Interval {
+                joint_accelerations_rad_s2: row.several(joints)?,
+                joint_torques_n_m: row.several(joints)?,
+            });
+        }
+        node.power_w = row.number()?;
+        nodes.push(node);
+    }
+    Ok(Trajectory::new(nodes, intervals)?)
+}
+
+/// A cursor over one row's cells that names the cell it fails at.
+struct Row<'a> {
+    file: &'a Path,
+    line: u64,
+    names: &'a [String],
+    record: &'a StringRecord,
+    next: usize,
+}
+
+impl Row<'_> {
+    fn number(&mut self) -> Result<f64, Error> {
+        let text = &self.record[self.next];
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| self.refuse("a finite number"))?;
+        self.next += 1;
+        Ok(value)
+    }
+
+    fn numbers<const COUNT: usize>(&mut self) -> Result<[f64; COUNT], Error> {
+        let mut values = [0.0; COUNT];
+        for value in &mut values {
+            *value = self.number()?;
+        }
+        Ok(values)
+    }
+
+    fn several(&mut self, count: usize) -> Result<Vec<f64>, Error> {
+        (0..count).map(|_| self.number()).collect()
+    }
+
+    fn empty(&mut self, count: usize) -> Result<(), Error> {
+        for _ in 0..count {
+            if !self.record[self.next].is_empty() {
+                return Err(self.refuse("an empty cell in the last row"));
+            }
+            self.next += 1;
+        }
+        Ok(())
+    }
+
+    fn refuse(&self, expected: &str) -> Error {
+        Error::Cell {
+            file: self.file.to_owned(),
+            line: self.line,
+            column: self.names[self.next].clone(),
+            mismatch: Mismatch::new(format_args!("`{}`", &self.record[self.next]), expected),
+        }
+    }
+}
+
+fn unreadable(file: &Path, error: csv::Error) -> Error {
+    let line = error.position().map_or(1, csv::Position::line);
+    let problem = error.to_string();
+    match error.into_kind() {
+        csv::ErrorKind::Io(source) => Error::Read { file: file.to_owned(), source },
+        _ => Error::Table { file: file.to_owned(), line, problem },
+    }
+}

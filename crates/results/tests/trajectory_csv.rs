@@ -1,0 +1,136 @@
+//! `trajectory.csv` is read back bit for bit, and a damaged table is refused with the place.
+
+use std::fs;
+use std::path::Path;
+
+use righting_results::{Interval, Node, Trajectory};
+use righting_scenario::Error;
+
+/// A trajectory of awkward numbers: every bit pattern of a finite double is fair.
+fn awkward(joints: usize, steps: usize) -> Trajectory {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut number = || loop {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        let value = f64::from_bits(state);
+        if value.is_finite() {
+            return value;
+        }
+    };
+    let mut several = |count: usize| (0..count).map(|_| number()).collect::<Vec<_>>();
+    let nodes = (0..=steps)
+        .map(|k| Node {
+            time_s: k as f64 * 0.1,
+            position_m: [-0.0, f64::MIN_POSITIVE / 8.0, f64::MAX],
+            attitude: several(4).try_into().unwrap(),
+            velocity_m_s: several(3).try_into().unwrap(),
+            angular_rate_rad_s: several(3).try_into().unwrap(),
+            joint_angles_rad: several(joints),
+            joint_rates_rad_s: several(joints),
+            power_w: several(1)[0],
+        })
+        .collect();
+    let intervals = (0..steps)
+        .map(|_| Interval {
+            joint_accelerations_rad_s2: several(joints),
+            joint_torques_n_m: several(joints),
+        })
+        .collect();
+    Trajectory::new(nodes, intervals).unwrap()
+}
+
+fn bits(trajectory: &Trajectory) -> Vec<u64> {
+    let mut text = Vec::new();
+    trajectory.print_csv(&mut text).unwrap();
+    let nodes = trajectory.nodes().iter().flat_map(|node| {
+        let arrays = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
+        let rest = [&node.angular_rate_rad_s[..], &node.joint_angles_rad, &node.joint_rates_rad_s];
+        let scalars = [node.time_s, node.power_w];
+        arrays.into_iter().chain(rest).flatten().copied().chain(scalars).collect::<Vec<_>>()
+    });
+    let intervals = trajectory.intervals().iter().flat_map(|interval| {
+        [&interval.joint_accelerations_rad_s2[..], &interval.joint_torques_n_m].concat()
+    });
+    nodes.chain(intervals).map(f64::to_bits).collect()
+}
+
+#[test]
+fn the_header_is_the_contract() {
+    let mut text = Vec::new();
+    awkward(2, 1).print_csv(&mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(
+        lines[0],
+        "t_s,rx_m,ry_m,rz_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,\
+         q1_rad,q2_rad,dq1_rad_s,dq2_rad_s,u1_rad_s2,u2_rad_s2,tau1_n_m,tau2_n_m,power_w"
+    );
+    assert_eq!(lines.len(), 3);
+    let first: Vec<&str> = lines[1].split(',').collect();
+    let last: Vec<&str> = lines[2].split(',').collect();
+    assert!(first.iter().all(|cell| cell.parse::<f64>().is_ok()));
+    assert!(last[18..22].iter().all(|cell| cell.is_empty()));
+    assert!(last[22].parse::<f64>().is_ok());
+    assert_eq!(first[4].chars().filter(char::is_ascii_digit).count().min(17), 17);
+}
+
+#[test]
+fn a_table_is_read_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    for (joints, steps) in [(1, 1), (2, 7), (7, 600)] {
+        let file = folder.path().join("trajectory.csv");
+        let trajectory = awkward(joints, steps);
+        trajectory.write_csv(&file).unwrap();
+        let read = Trajectory::read_csv(&file).unwrap();
+        assert_eq!(bits(&read), bits(&trajectory));
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "temporary files are gone");
+}
+
+fn refusal(text: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("trajectory.csv");
+    fs::write(&file, text).unwrap();
+    let message = Trajectory::read_csv(&file).unwrap_err().to_string();
+    let place = format!("{}: ", file.display());
+    message.strip_prefix(&place).expect("the message starts with the file").to_owned()
+}
+
+#[test]
+fn damaged_tables_are_refused_with_the_place() {
+    let mut good = Vec::new();
+    awkward(1, 2).print_csv(&mut good).unwrap();
+    let good = String::from_utf8(good).unwrap();
+    let rows: Vec<&str> = good.lines().collect();
+
+    assert!(refusal("").contains("found an empty file, expected a header and rows"));
+    assert!(refusal(rows[0]).contains("found 0 rows, expected at least 2"));
+    assert!(refusal(&good.replace("qw,qx", "qx,qw")).contains("found column `qx`, expected `qw`"));
+    let short = format!("{}\n{}\n1,2,3\n", rows[0], rows[1]);
+    assert!(refusal(&short).starts_with("line 3: found 3 cells, expected 19"));
+    let cells: Vec<&str> = rows[1].split(',').collect();
+    for (column, value) in [(0, "NaN"), (4, "inf"), (16, ""), (18, "seven")] {
+        let mut damaged = cells.clone();
+        damaged[column] = value;
+        let message = refusal(&[rows[0], &damaged.join(","), rows[2], rows[3]].join("\n"));
+        let name = rows[0].split(',').nth(column).unwrap();
+        assert!(
+            message.starts_with(&format!("line 2, column {name}: found `{value}`, expected ")),
+            "{message}"
+        );
+    }
+    let whole_last = [rows[0], rows[1], rows[1]].join("\n");
+    assert!(refusal(&whole_last).starts_with("line 3, column u1_rad_s2"));
+}
+
+#[test]
+fn files_that_cannot_be_opened_or_written_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("missing.csv");
+    assert!(matches!(Trajectory::read_csv(&missing), Err(Error::Read { .. })));
+    assert!(matches!(Trajectory::read_csv(folder.path()), Err(Error::Directory { .. })));
+    let nowhere = Path::new("no-such-folder/trajectory.csv");
+    let message = awkward(1, 1).write_csv(nowhere).unwrap_err().to_string();
+    assert_eq!(message, "no-such-folder/trajectory.csv: cannot be written: no such file");
+}

@@ -1,0 +1,46 @@
+//! Scenario, system and wheel files: read, checked, and turned into types that cannot be wrong.
+//!
+//! A file is parsed twice. [`mod@file`] mirrors the JSON; [`Scenario`], [`SystemDescription`] and
+//! [`WheelArray`] are what it means, in SI units and radians, every default filled in. An error names
+//! the file, the field, what stands there and what is expected there.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use righting_scenario::{Maneuver, Scenario};
+//!
+//! let file = Path::new("../../scenarios/slew_2dof.json");
+//! let scenario = Scenario::read(file)?;
+//! let Maneuver::Slew(slew) = scenario.maneuver() else { panic!("a slew") };
+//! assert!((slew.angle_rad - 20_f64.to_radians()).abs() < 1e-12);
+//! assert_eq!(scenario.system().joint_count(), 2);
+//!
+//! // A variant is checked like a file.
+//! let mut changed = scenario.resolved().clone();
+//! changed.horizon.steps = 0.0;
+//! let refused = Scenario::from_file(changed, file).unwrap_err();
+//! assert!(refused.to_string().ends_with(
+//!     "horizon.steps: found 0, expected a whole number from 1 to 100000"
+//! ));
+//! # Ok::<(), righting_scenario::Error>(())
+//! ```
+#![forbid(unsafe_code)]
+
+pub mod collision;
+pub mod error;
+pub mod file;
+pub mod file_io;
+pub mod halton;
+pub mod initial;
+pub mod json;
+pub mod scenario;
+pub mod schema;
+pub mod system_description;
+pub mod wheels;
+
+pub use collision::CollisionModel;
+pub use error::Error;
+pub use initial::Initial;
+pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
+pub use system_description::{JointLimits, SystemDescription};
+pub use wheels::WheelArray;

@@ -1,0 +1,469 @@
+//! A maneuver to plan, checked: what a scenario file means.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use nalgebra::Vector3;
+use righting_multibody::Quaternion;
+use sha2::{Digest, Sha256};
+
+use crate::collision::CollisionModel;
+use crate::error::Error;
+use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, Optimizer, SystemReference};
+use crate::initial::Initial;
+use crate::json::{Bounds, Document, FileKind, Number, Place, shown};
+use crate::system_description::{SystemDescription, read_system};
+
+/// The most intervals a horizon may have.
+pub const MAX_STEPS: usize = 100_000;
+/// The most iterations the optimizer may be given.
+pub const MAX_ITERATIONS: usize = 1_000_000;
+/// The most low-discrepancy starts.
+pub const MAX_STARTS: u64 = 1000;
+/// The longest duration, s.
+pub const LONGEST_S: f64 = 1e6;
+
+const DURATION_S: Bounds = Bounds::Above(0.0, LONGEST_S);
+const STEPS: Bounds = Bounds::Whole(1.0, MAX_STEPS as f64);
+const WEIGHT: Bounds = Bounds::Between(0.0, 1e12);
+const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e3);
+const SLEW_ANGLE_DEG: Bounds = Bounds::Between(-180.0, 180.0);
+const AXIS: Bounds = Bounds::Between(-1e6, 1e6);
+const ITERATIONS: Bounds = Bounds::Whole(1.0, MAX_ITERATIONS as f64);
+const TIME_LIMIT_S: Bounds = Bounds::Above(0.0, 1e6);
+const TOLERANCE: Bounds = Bounds::Between(1e-14, 1e-2);
+
+/// A checked scenario. SI units and radians; nothing in it can be wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    system: SystemDescription,
+    initial: Initial,
+    maneuver: Maneuver,
+    horizon: Horizon,
+    weights: Weights,
+    collision: CollisionModel,
+    solver: SolverSettings,
+    resolved: file::Scenario,
+}
+
+/// What to do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Maneuver {
+    /// Turn the base, rest to rest.
+    Slew(Slew),
+    /// Reduce the base's angular rate and stop the arm.
+    Detumble,
+}
+
+/// A turn of the base, rest to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slew {
+    /// Unit axis in body axes at the start.
+    pub axis: Vector3<f64>,
+    /// Angle about the axis, rad.
+    pub angle_rad: f64,
+    /// Attitude to reach, body → inertial: the initial attitude turned about `axis` by `angle_rad`.
+    pub target: Quaternion<f64>,
+}
+
+/// Duration and grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Horizon {
+    /// Duration, s.
+    pub duration_s: f64,
+    /// Number of equal intervals N.
+    pub steps: usize,
+}
+
+/// Weights of the objective: `control` multiplies the sum over the steps of the squared joint
+/// accelerations, each other one the squared norm of its error at the last node. SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights {
+    /// Joint accelerations.
+    pub control: f64,
+    /// Position of the base.
+    pub position: f64,
+    /// Vector part of the attitude error quaternion.
+    pub attitude: f64,
+    /// Velocity of the base.
+    pub velocity: f64,
+    /// Angular rate of the base.
+    pub angular_rate: f64,
+    /// Departure of the joint angles from their start.
+    pub joint_angle: f64,
+    /// Joint rates.
+    pub joint_rate: f64,
+}
+
+/// How to solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// States of the optimal control problem.
+    pub formulation: Formulation,
+    /// Initial guess.
+    pub guess: Guess,
+    /// Who makes the iterations.
+    pub optimizer: Optimizer,
+    /// Linear solver inside the optimizer.
+    pub linear_solver: LinearSolver,
+    /// Largest number of iterations.
+    pub max_iterations: usize,
+    /// Convergence tolerance.
+    pub tolerance: f64,
+    /// Wall time after which a plan is stopped.
+    pub time_limit: Option<Duration>,
+}
+
+impl Scenario {
+    /// Reads and checks a scenario file and its system.
+    ///
+    /// # Errors
+    /// Those of reading, and [`Error::Field`] for a field that is wrong.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let document = Document::read(file, FileKind::Scenario)?;
+        Self::from_file(document.decode()?, file)
+    }
+
+    /// Reads and checks a scenario from its text; `file` names it in errors, and a relative system
+    /// path starts from its folder.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        Self::from_file(Document::parse(file, text, FileKind::Scenario)?.decode()?, file)
+    }
+
+    /// Checks a scenario; `file` names it in errors, and a relative system path starts from its
+    /// folder. To vary a checked scenario, change a copy of its [`resolved`](Self::resolved) form
+    /// and check that.
+    ///
+    /// # Errors
+    /// [`Error::Field`] for a field that is wrong; those of reading the system.
+    pub fn from_file(scenario: file::Scenario, file: &Path) -> Result<Self, Error> {
+        Self::from_file_at(scenario, file, &Place::root(file))
+    }
+
+    /// [`from_file`](Self::from_file) for a scenario that stands at `place` in `file`.
+    ///
+    /// # Errors
+    /// As [`from_file`](Self::from_file).
+    pub fn from_file_at(
+        mut scenario: file::Scenario,
+        file: &Path,
+        place: &Place,
+    ) -> Result<Self, Error> {
+        if scenario.name.trim().is_empty() {
+            return Err(place.key("name").refuse("\"\"", "a name"));
+        }
+        let (system, links_place) =
+            resolve_system(&mut scenario.system, file, &place.key("system"))?;
+        let initial = Initial::from_file(&scenario.initial, &system, &place.key("initial"))?;
+        let maneuver = maneuver(&scenario.maneuver, &initial, &place.key("maneuver"))?;
+        check_momentum(&scenario.initial, &initial, &maneuver, &system, &place.key("initial"))?;
+        let horizon = horizon(&scenario.horizon, &place.key("horizon"))?;
+        let weights = weights(&scenario.weights, &maneuver, &place.key("weights"))?;
+        let solver = solver(&scenario.solver, &place.key("solver"))?;
+        let clearance_m = match scenario.collision.clearance_m {
+            Some(clearance_m) => {
+                place.key("collision").key("clearance_m").within(clearance_m, CLEARANCE_M)?
+            }
+            None => 0.01,
+        };
+        let collision = CollisionModel::new(&system, clearance_m);
+        collision.check_exemptions(&system, &initial.joint_angles_rad, &links_place)?;
+        let angles_place = place.key("initial").key("joint_angles_deg");
+        collision.check_start(&system, &initial.joint_angles_rad, &angles_place)?;
+        let resolved = file::Scenario {
+            initial: file::Initial {
+                joint_angles_deg: scenario.initial.joint_angles_deg.clone(),
+                joint_rates_deg_s: Some(
+                    scenario
+                        .initial
+                        .joint_rates_deg_s
+                        .clone()
+                        .unwrap_or_else(|| vec![0.0; system.joint_count()]),
+                ),
+                angular_rate_deg_s: Some(scenario.initial.angular_rate_deg_s.unwrap_or_default()),
+                attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
+            },
+            weights: weights.to_file(),
+            collision: file::Collision { clearance_m: Some(clearance_m) },
+            solver: solver.to_file(),
+            ..scenario
+        };
+        Ok(Self { system, initial, maneuver, horizon, weights, collision, solver, resolved })
+    }
+
+    /// Name of the scenario.
+    pub fn name(&self) -> &str {
+        &self.resolved.name
+    }
+
+    /// The system.
+    pub fn system(&self) -> &SystemDescription {
+        &self.system
+    }
+
+    /// State at the start.
+    pub fn initial(&self) -> &Initial {
+        &self.initial
+    }
+
+    /// What to do.
+    pub fn maneuver(&self) -> &Maneuver {
+        &self.maneuver
+    }
+
+    /// Duration and grid.
+    pub fn horizon(&self) -> Horizon {
+        self.horizon
+    }
+
+    /// Weights of the objective.
+    pub fn weights(&self) -> Weights {
+        self.weights
+    }
+
+    /// Which links keep how far from what.
+    pub fn collision(&self) -> &CollisionModel {
+        &self.collision
+    }
+
+    /// How to solve.
+    pub fn solver(&self) -> SolverSettings {
+        self.solver
+    }
+
+    /// The scenario as a file, its system inline and every default filled in.
+    pub fn resolved(&self) -> &file::Scenario {
+        &self.resolved
+    }
+
+    /// The system in [`resolved`](Self::resolved), where it stands inline.
+    pub fn resolved_system(&self) -> &file::System {
+        match &self.resolved.system {
+            SystemReference::Inline(system) => system,
+            SystemReference::File(_) => unreachable!("a checked scenario has its system inline"),
+        }
+    }
+}
+
+impl Horizon {
+    /// Length of an interval Δt, s.
+    pub fn step_s(self) -> f64 {
+        self.duration_s / self.steps as f64
+    }
+
+    /// Time of node `k`, s.
+    pub fn time_s(self, k: usize) -> f64 {
+        self.duration_s * k as f64 / self.steps as f64
+    }
+}
+
+impl file::Scenario {
+    /// SHA-256 of the compact JSON of this scenario, hexadecimal. For a resolved scenario it
+    /// identifies the problem, the system included.
+    pub fn sha256(&self) -> String {
+        let text = serde_json::to_vec(self).unwrap_or_default();
+        Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// Puts the system inline and checks it; complaints about a system file name that file. Returns the
+/// place of its links too.
+fn resolve_system(
+    reference: &mut SystemReference,
+    file: &Path,
+    place: &Place,
+) -> Result<(SystemDescription, Place), Error> {
+    match reference {
+        SystemReference::Inline(system) => {
+            Ok((SystemDescription::from_file(system, place)?, place.key("links")))
+        }
+        SystemReference::File(path) => {
+            if path.is_empty() {
+                return Err(place.refuse("\"\"", "the path of a system file, or a system"));
+            }
+            let system_file: PathBuf = file.parent().unwrap_or(Path::new("")).join(&*path);
+            let system = read_system(&system_file).map_err(|error| match error {
+                Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
+                unreadable => place.refuse(
+                    shown(&path.as_str().into()),
+                    format_args!("the path of a system file ({unreadable})"),
+                ),
+            })?;
+            let place = Place::root(&system_file);
+            let description = SystemDescription::from_file(&system, &place)?;
+            *reference = SystemReference::Inline(Box::new(system));
+            Ok((description, place.key("links")))
+        }
+    }
+}
+
+fn maneuver(
+    maneuver: &file::Maneuver,
+    initial: &Initial,
+    place: &Place,
+) -> Result<Maneuver, Error> {
+    let (axis_place, angle_place) = (place.key("axis"), place.key("angle_deg"));
+    match maneuver.kind {
+        file::ManeuverType::Slew => {
+            let axis = maneuver.axis.ok_or_else(|| axis_place.missing("the axis of the slew"))?;
+            let angle_deg =
+                maneuver.angle_deg.ok_or_else(|| angle_place.missing("the angle of the slew"))?;
+            axis_place.all_within(axis, AXIS)?;
+            let axis = Vector3::from(axis).try_normalize(1e-9).ok_or_else(|| {
+                let [x, y, z] = axis.map(Number);
+                axis_place.refuse(format!("[{x}, {y}, {z}]"), "a vector that is not zero")
+            })?;
+            let angle_rad = angle_place.within(angle_deg, SLEW_ANGLE_DEG)?.to_radians();
+            let turn = Quaternion::from_axis_angle(&axis, angle_rad);
+            Ok(Maneuver::Slew(Slew { axis, angle_rad, target: initial.attitude.product(&turn) }))
+        }
+        file::ManeuverType::Detumble => {
+            if maneuver.axis.is_some() {
+                return Err(axis_place.refuse("an axis", "none for a detumble"));
+            }
+            if maneuver.angle_deg.is_some() {
+                return Err(angle_place.refuse("an angle", "none for a detumble"));
+            }
+            Ok(Maneuver::Detumble)
+        }
+    }
+}
+
+/// A slew that starts with angular momentum cannot end at rest; a detumble without any has nothing
+/// to do.
+fn check_momentum(
+    given: &file::Initial,
+    initial: &Initial,
+    maneuver: &Maneuver,
+    system: &SystemDescription,
+    place: &Place,
+) -> Result<(), Error> {
+    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
+    let arm_at_rest = vec![0.0; system.joint_count()];
+    let rate_rad_s = system
+        .model
+        .reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum)
+        .norm();
+    let place = place.key("angular_rate_deg_s");
+    let [x, y, z] = given.angular_rate_deg_s.unwrap_or_default().map(Number);
+    let value = format!("[{x}, {y}, {z}]");
+    let turns = rate_rad_s > 1e-9;
+    match (maneuver, given.angular_rate_deg_s) {
+        (Maneuver::Slew(_), _) if turns => Err(place.refuse(
+            value,
+            format!(
+                "a rate at which the system has no angular momentum, since a slew ends at rest (it \
+                 would turn at {:.3} deg/s with the arm stopped)",
+                rate_rad_s.to_degrees()
+            ),
+        )),
+        (Maneuver::Detumble, None) if !turns => {
+            Err(place.missing("the angular rate that a detumble takes out"))
+        }
+        (Maneuver::Detumble, Some(_)) if !turns => {
+            Err(place.refuse(value, "a vector that is not zero: a detumble takes it out"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn horizon(horizon: &file::Horizon, place: &Place) -> Result<Horizon, Error> {
+    Ok(Horizon {
+        duration_s: place.key("duration_s").within(horizon.duration_s, DURATION_S)?,
+        steps: place.key("steps").within(horizon.steps, STEPS)? as usize,
+    })
+}
+
+fn weights(weights: &file::Weights, maneuver: &Maneuver, place: &Place) -> Result<Weights, Error> {
+    let defaults = Weights::defaults(maneuver);
+    let weight = |name: &str, given: Option<f64>, default: f64| match given {
+        Some(value) => place.key(name).within(value, WEIGHT),
+        None => Ok(default),
+    };
+    Ok(Weights {
+        control: weight("control", weights.control, defaults.control)?,
+        position: weight("position", weights.position, defaults.position)?,
+        attitude: weight("attitude", weights.attitude, defaults.attitude)?,
+        velocity: weight("velocity", weights.velocity, defaults.velocity)?,
+        angular_rate: weight("angular_rate", weights.angular_rate, defaults.angular_rate)?,
+        joint_angle: weight("joint_angle", weights.joint_angle, defaults.joint_angle)?,
+        joint_rate: weight("joint_rate", weights.joint_rate, defaults.joint_rate)?,
+    })
+}
+
+impl Weights {
+    /// The weights of a scenario that gives none.
+    pub fn defaults(maneuver: &Maneuver) -> Self {
+        let none = Self {
+            control: 0.01,
+            position: 0.0,
+            attitude: 0.0,
+            velocity: 0.0,
+            angular_rate: 100.0,
+            joint_angle: 0.0,
+            joint_rate: 0.0,
+        };
+        match maneuver {
+            Maneuver::Slew(_) => Self { attitude: 1000.0, joint_rate: 100.0, ..none },
+            Maneuver::Detumble => Self { joint_rate: 1000.0, ..none },
+        }
+    }
+
+    fn to_file(self) -> file::Weights {
+        file::Weights {
+            control: Some(self.control),
+            position: Some(self.position),
+            attitude: Some(self.attitude),
+            velocity: Some(self.velocity),
+            angular_rate: Some(self.angular_rate),
+            joint_angle: Some(self.joint_angle),
+            joint_rate: Some(self.joint_rate),
+        }
+    }
+}
+
+fn solver(solver: &file::Solver, place: &Place) -> Result<SolverSettings, Error> {
+    let max_iterations = solver.max_iterations.unwrap_or(3000.0);
+    let tolerance = solver.tolerance.unwrap_or(1e-8);
+    if let Some(Guess::Starts(random)) = solver.guess
+        && !(1..=MAX_STARTS).contains(&random.starts)
+    {
+        let allowed = format!("a whole number from 1 to {MAX_STARTS}");
+        return Err(place.key("guess").key("starts").refuse(random.starts, allowed));
+    }
+    Ok(SolverSettings {
+        formulation: solver.formulation.unwrap_or_default(),
+        guess: solver.guess.unwrap_or(Guess::Named(NamedGuess::Auto)),
+        optimizer: match solver.optimizer.unwrap_or_default() {
+            Optimizer::Auto => Optimizer::Ipopt,
+            named => named,
+        },
+        linear_solver: solver.linear_solver.unwrap_or_default(),
+        max_iterations: place.key("max_iterations").within(max_iterations, ITERATIONS)? as usize,
+        tolerance: place.key("tolerance").within(tolerance, TOLERANCE)?,
+        time_limit: match solver.time_limit_s {
+            Some(limit_s) => {
+                let limit_s = place.key("time_limit_s").within(limit_s, TIME_LIMIT_S)?;
+                Some(Duration::from_secs_f64(limit_s))
+            }
+            None => None,
+        },
+    })
+}
+
+impl SolverSettings {
+    fn to_file(self) -> file::Solver {
+        file::Solver {
+            formulation: Some(self.formulation),
+            guess: Some(self.guess),
+            optimizer: Some(self.optimizer),
+            linear_solver: Some(self.linear_solver),
+            max_iterations: Some(self.max_iterations as f64),
+            tolerance: Some(self.tolerance),
+            time_limit_s: self.time_limit.map(|limit| limit.as_secs_f64()),
+        }
+    }
+}

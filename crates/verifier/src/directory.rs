@@ -1,0 +1,86 @@
+//! The check of a folder that a solve has written.
+
+use std::path::{Path, PathBuf};
+
+use righting_results::solution::{SCHEMA, Solution};
+use righting_results::trajectory::Trajectory;
+use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE, objective};
+use righting_scenario::error::Error;
+use righting_scenario::json::Place;
+use righting_scenario::scenario::Scenario;
+
+use crate::ledger::{Ledger, Worst};
+use crate::model::State;
+use crate::requirements::Requirements;
+use crate::verify::verify;
+
+/// How far numbers in `solution.json` may be from what the trajectory says, relative.
+const REPORTED: f64 = 1e-6;
+
+/// A result folder, read and checked.
+#[derive(Clone, Debug)]
+pub struct Verified {
+    /// The contents of `solution.json`, with the outcome of the check made now.
+    pub solution: Solution,
+    /// The scenario in it.
+    pub scenario: Scenario,
+    /// The contents of `trajectory.csv`.
+    pub trajectory: Trajectory,
+}
+
+/// Reads `solution.json` and `trajectory.csv` in `folder` and checks both: the trajectory as
+/// [`verify`] does, the scenario against its hash, and what the solution claims against the
+/// trajectory.
+///
+/// # Errors
+/// Those of reading the two files. A plan that is wrong is no error: see
+/// [`Verification::passed`](crate::Verification::passed).
+pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
+    let solution_file: PathBuf = folder.join(SOLUTION_FILE);
+    let solution = Solution::read_json(&solution_file)?;
+    let place = Place::root(&solution_file);
+    if solution.schema != SCHEMA {
+        let found = format!("\"{}\"", solution.schema);
+        return Err(place.key("schema").refuse(found, format!("\"{SCHEMA}\"")));
+    }
+    let scenario =
+        Scenario::from_file_at(solution.scenario.clone(), &solution_file, &place.key("scenario"))?;
+    let trajectory = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?;
+    let mut ledger = Ledger { report: verify(&scenario, &trajectory) };
+    check_claims(&solution, &scenario, &trajectory, &mut ledger);
+    let solution = Solution { verification: ledger.finish(), ..solution };
+    Ok(Verified { solution, scenario, trajectory })
+}
+
+/// What `solution.json` says is what the trajectory shows.
+fn check_claims(
+    solution: &Solution,
+    scenario: &Scenario,
+    trajectory: &Trajectory,
+    ledger: &mut Ledger,
+) {
+    let is_changed = solution.scenario.sha256() != solution.scenario_sha256;
+    let mut hash = Worst::new("scenario changed since it was solved", "", 0.0);
+    hash.at_most(f64::from(u8::from(is_changed)), 0.0, None, None);
+    ledger.add(hash);
+
+    let mut cost = Worst::new("objective mismatch", "", 0.0);
+    let found = objective(scenario, trajectory);
+    cost.at_most((found - solution.objective).abs(), REPORTED * found.abs().max(1e-9), None, None);
+    ledger.add(cost);
+
+    let end = State::of_node(trajectory.end());
+    let found = Requirements::new(scenario).goal.reached(&end);
+    let claimed = &solution.terminal;
+    let pairs = [
+        (found.attitude_error, claimed.attitude_error),
+        (found.attitude_error_deg, claimed.attitude_error_deg),
+        (found.angular_rate_deg_s, claimed.angular_rate_deg_s),
+        (found.joint_rate_deg_s, claimed.joint_rate_deg_s),
+    ];
+    let mut terminal = Worst::new("terminal mismatch", "", 0.0);
+    for (found, claimed) in pairs {
+        terminal.at_most((found - claimed).abs(), REPORTED * found.abs().max(1.0), None, None);
+    }
+    ledger.add(terminal);
+}

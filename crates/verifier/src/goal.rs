@@ -1,0 +1,56 @@
+//! What the end of a maneuver shall be, and what it is.
+
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+use righting_results::solution::Terminal;
+use righting_scenario::file;
+
+use crate::model::State;
+
+/// What the end shall be.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Goal {
+    /// At rest in an attitude, body → inertial.
+    Attitude(UnitQuaternion<f64>),
+    /// With the arm at rest and the base turning slower than at the start.
+    LessRate {
+        /// The norm of the base's rate at the start, deg/s.
+        start_deg_s: f64,
+    },
+}
+
+impl Goal {
+    /// Of a resolved scenario that starts in the state `start`.
+    pub fn new(maneuver: &file::Maneuver, start: &State<'_>) -> Self {
+        match maneuver.kind {
+            file::ManeuverType::Slew => {
+                // A slew without them was refused when the scenario was read.
+                let axis = Unit::new_normalize(Vector3::from(maneuver.axis.unwrap_or_default()));
+                let angle_rad = maneuver.angle_deg.unwrap_or(f64::NAN).to_radians();
+                let turn = UnitQuaternion::from_axis_angle(&axis, angle_rad);
+                Self::Attitude(UnitQuaternion::from_quaternion(start.attitude) * turn)
+            }
+            file::ManeuverType::Detumble => {
+                Self::LessRate { start_deg_s: start.angular_rate.norm().to_degrees() }
+            }
+        }
+    }
+
+    /// What a maneuver that ends in the state `end` has reached.
+    pub fn reached(&self, end: &State<'_>) -> Terminal {
+        let (attitude_error, attitude_error_deg) = match self {
+            Self::Attitude(target) => {
+                let error = target.conjugate().into_inner() * end.attitude.normalize();
+                let vector = error.imag().norm();
+                (vector, 2.0 * vector.atan2(error.scalar().abs()).to_degrees())
+            }
+            Self::LessRate { .. } => (0.0, 0.0),
+        };
+        let squares = end.joint_rates.iter().map(|rate| rate * rate);
+        Terminal {
+            attitude_error,
+            attitude_error_deg,
+            angular_rate_deg_s: end.angular_rate.norm().to_degrees(),
+            joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
+        }
+    }
+}

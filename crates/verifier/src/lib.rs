@@ -1,0 +1,39 @@
+//! The independent check of a trajectory.
+//!
+//! Nothing here comes from the planner. What a plan is measured by is read from the resolved scenario
+//! file; masses, momenta, motion, torques and distances come from a [second model](model) that shares
+//! no equation with the planner's; the motion is followed by an integrator with its own error control
+//! (Dormand and Prince's, to 1e-11) in all 13 + 2j states, with only the first node and the controls
+//! of the trajectory as its input. What that second integration finds is compared with every node,
+//! and it, not the nodes, decides whether the maneuver does what was asked. Limits are looked at on
+//! the nodes and, on the second integration, between them.
+//!
+//! Shared with the planner are the file's types and the check of its values, the horizon's times, and
+//! the trajectory itself.
+//!
+//! Tolerances are part of every [`Check`](crate::Check) and so of every report:
+//!
+//! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes, where a plan has no
+//!   constraints, joint angles and clearances to 1e-3;
+//! - the plan's own integration error, one step of a fourth-order method an interval, may reach
+//!   1e-4 rad in attitude, a twentieth of what a slew may miss its target by. In momentum that is
+//!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
+//! - joints follow from the controls exactly, so they may differ by what a solver leaves of its
+//!   equations: 1e-6 rad and rad/s.
+
+#![forbid(unsafe_code)]
+
+mod clearances;
+mod directory;
+mod dormand_prince;
+mod goal;
+mod ledger;
+mod limits;
+pub mod model;
+mod requirements;
+mod simulation;
+mod verify;
+
+pub use directory::{Verified, verify_directory};
+pub use dormand_prince::DormandPrince;
+pub use verify::{ATTITUDE_ERROR, DETUMBLE_AT_REST_DEG_S, SLEW_AT_REST_DEG_S, simulate, verify};

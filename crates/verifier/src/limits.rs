@@ -1,0 +1,152 @@
+//! Joint limits and clearances, at the nodes and between them.
+
+use nalgebra::Vector3;
+use righting_results::trajectory::Trajectory;
+
+use crate::ledger::{Ledger, Subject, Worst};
+use crate::model::State;
+use crate::requirements::Requirements;
+use crate::simulation::Simulation;
+
+/// How far a node may be past a limit (rad, rad/s, rad/s², m).
+const AT_NODES: f64 = 1e-6;
+/// How far the motion between nodes may be past a limit (rad, rad/s, m).
+const BETWEEN_NODES: f64 = 1e-3;
+/// Places looked at within an interval.
+const SAMPLES: usize = 10;
+
+/// Worst places of the quantities that have limits.
+struct Limits<'a> {
+    asked: &'a Requirements,
+    angle: Worst,
+    rate: Worst,
+    body: Worst,
+    links: Worst,
+    /// Origins of the arm's frames in the posture looked at last.
+    origins: Vec<Vector3<f64>>,
+}
+
+/// Joint angles and rates under constant acceleration.
+struct Joints {
+    angles: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+pub(super) fn check(
+    asked: &Requirements,
+    trajectory: &Trajectory,
+    simulation: &Simulation,
+    ledger: &mut Ledger,
+) {
+    let names = [
+        "joint angle at nodes",
+        "joint rate at nodes",
+        "clearance from body at nodes",
+        "clearance between links at nodes",
+    ];
+    let mut at_nodes = Limits::new(asked, names, AT_NODES);
+    for node in trajectory.nodes() {
+        at_nodes.look(&node.joint_angles_rad, &node.joint_rates_rad_s, node.time_s);
+    }
+    let names = [
+        "joint angle between nodes",
+        "joint rate between nodes",
+        "clearance from body between nodes",
+        "clearance between links between nodes",
+    ];
+    let mut between = Limits::new(asked, names, BETWEEN_NODES);
+    let mut acceleration = Worst::new("joint acceleration", "rad/s²", AT_NODES);
+    let mut joints = Joints::new(asked.joint_limits.len());
+    for (k, (interval, state)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate()
+    {
+        let control = &interval.joint_accelerations_rad_s2;
+        let start_s = asked.horizon.time_s(k);
+        let duration_s = asked.horizon.time_s(k + 1) - start_s;
+        for (joint, (limits, control)) in asked.joint_limits.iter().zip(control).enumerate() {
+            let limit = limits.acceleration_max_rad_s2;
+            let subject = Some(Subject::Joint(joint));
+            acceleration.at_most(control.abs(), limit, subject, Some(start_s));
+        }
+        for after_s in sampled(duration_s) {
+            joints.move_on(&state, control, after_s);
+            between.look(&joints.angles, &joints.rates, start_s + after_s);
+        }
+        for (joint, rate) in state.joint_rates.iter().enumerate() {
+            // A joint that turns back within the interval goes farthest between two samples.
+            let after_s = -rate / control[joint];
+            if after_s > 0.0 && after_s < duration_s {
+                joints.move_on(&state, control, after_s);
+                between.look_at_angle(joint, joints.angles[joint], start_s + after_s);
+            }
+        }
+    }
+    let Limits { angle, rate, body, links, .. } = at_nodes;
+    for worst in [angle, rate, acceleration, body, links] {
+        ledger.add(worst);
+    }
+    let Limits { angle, rate, body, links, .. } = between;
+    for worst in [angle, rate, body, links] {
+        ledger.add(worst);
+    }
+}
+
+/// Times within an interval, its ends left out.
+fn sampled(duration_s: f64) -> impl Iterator<Item = f64> {
+    (1..=SAMPLES).map(move |i| duration_s * i as f64 / (SAMPLES + 1) as f64)
+}
+
+impl Joints {
+    fn new(count: usize) -> Self {
+        Self { angles: vec![0.0; count], rates: vec![0.0; count] }
+    }
+
+    /// From `state`, `after_s` later.
+    fn move_on(&mut self, state: &State<'_>, control: &[f64], after_s: f64) {
+        for (joint, acceleration) in control.iter().enumerate() {
+            let (angle, rate) = (state.joint_angles[joint], state.joint_rates[joint]);
+            let gained = acceleration * after_s;
+            self.angles[joint] = angle + (rate + 0.5 * gained) * after_s;
+            self.rates[joint] = rate + gained;
+        }
+    }
+}
+
+impl<'a> Limits<'a> {
+    /// Limits on angles, rates, clearances from the body and between links.
+    fn new(asked: &'a Requirements, names: [&'static str; 4], tolerance: f64) -> Self {
+        let [angle, rate, body, links] = names;
+        Self {
+            asked,
+            angle: Worst::new(angle, "rad", tolerance),
+            rate: Worst::new(rate, "rad/s", tolerance),
+            body: Worst::new(body, "m", tolerance),
+            links: Worst::new(links, "m", tolerance),
+            origins: vec![Vector3::zeros(); asked.model.joint_count() + 1],
+        }
+    }
+
+    fn look(&mut self, angles_rad: &[f64], rates_rad_s: &[f64], time_s: f64) {
+        for (joint, limits) in self.asked.joint_limits.iter().enumerate() {
+            self.look_at_angle(joint, angles_rad[joint], time_s);
+            let rate = rates_rad_s[joint].abs();
+            let subject = Some(Subject::Joint(joint));
+            self.rate.at_most(rate, limits.rate_max_rad_s, subject, Some(time_s));
+        }
+        let Requirements { model, clearances, .. } = self.asked;
+        if !clearances.is_empty() {
+            model.origins(angles_rad, &mut self.origins);
+            clearances.look(&self.origins, time_s, &mut self.body, &mut self.links);
+        }
+    }
+
+    fn look_at_angle(&mut self, joint: usize, angle_rad: f64, time_s: f64) {
+        let (subject, time_s) = (Some(Subject::Joint(joint)), Some(time_s));
+        let limits = &self.asked.joint_limits[joint];
+        if let Some(max_rad) = limits.angle_max_rad {
+            self.angle.at_most(angle_rad, max_rad, subject, time_s);
+        }
+        if let Some(min_rad) = limits.angle_min_rad {
+            self.angle.at_least(angle_rad, min_rad, subject, time_s);
+        }
+    }
+}

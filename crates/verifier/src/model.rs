@@ -1,0 +1,118 @@
+//! The verifier's own model of base and arm: Newton's and Euler's laws, body by body, in inertial
+//! axes, on plain numbers.
+//!
+//! It is built from the system as it stands in a file and shares nothing with the planner's model,
+//! so that a wrong term of one shows against the other. The planner eliminates masses (barycentric
+//! moments), works in link axes from the tip inward and drops what is zero; here every body is
+//! followed by itself and every law stands as it is taught. With x, v, a the position, velocity and
+//! acceleration of a body's center of mass, Ω and α its angular rate and acceleration, J = C I Cᵀ its
+//! inertia, and c the system's center of mass,
+//!
+//! ```text
+//! P = Σ m v                               linear momentum
+//! H = Σ [ (x − c) × m v + J Ω ]           angular momentum about c
+//! 0 = Σ m a                               no force from outside
+//! 0 = Σ [ (x − c) × m a + J α + Ω × J Ω ] no moment from outside
+//! τ = e · Σ [ (x − p) × m a + J α + Ω × J Ω ]   over the bodies beyond a joint with axis e through p
+//! ```
+//!
+//! Accelerations are linear in those of the base, r̈ and Ω̇: the bodies are moved once with the base
+//! unaccelerated, which gives the force F⁰ and the moment N⁰ about c that would be missing, and then
+//!
+//! ```text
+//! (Σ [ J + m (d² 1 − d dᵀ) ]) Ω̇ = −N⁰        d = x − c
+//! r̈ = −F⁰/M − Ω̇ × (c − r)
+//! ```
+//!
+//! Attitudes are nalgebra's quaternions.
+
+mod body;
+mod dynamics;
+mod motion;
+mod row;
+mod segment;
+mod state;
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use righting_scenario::file;
+
+use body::Body;
+use row::{Convention, Row};
+
+pub use dynamics::BaseAcceleration;
+pub use motion::{BodyMotion, FrameMotion, Motion};
+pub use segment::Segment;
+pub use state::State;
+
+/// A free-floating base with an arm.
+///
+/// Frame 0 is the mount and moves with the base; frame i follows from frame i−1 by row i of the
+/// Denavit–Hartenberg table and moves with joint i.
+#[derive(Clone, Debug)]
+pub struct Model {
+    convention: Convention,
+    /// Origin of frame 0 in body axes, from the base's center of mass, m.
+    mount_position: Vector3<f64>,
+    /// Turns vectors of frame 0 into body axes.
+    mount_rotation: Matrix3<f64>,
+    rows: Vec<Row>,
+    /// Every body with mass, the base first, in the order of the frames that they move with.
+    bodies: Vec<Body>,
+    total_mass: f64,
+}
+
+impl Model {
+    /// The model of a system that was checked when its scenario was read.
+    pub fn new(system: &file::System) -> Self {
+        let convention = match system.dh_convention {
+            file::DhConvention::Standard => Convention::Distal,
+            file::DhConvention::Modified => Convention::Proximal,
+        };
+        let [w, x, y, z] = system.mount.rotation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        let mount = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+        let rows: Vec<Row> = system.links.iter().map(Row::new).collect();
+        let mut bodies = vec![Body::base(&system.base)];
+        for (index, (link, row)) in system.links.iter().zip(&rows).enumerate() {
+            bodies.push(Body::link(link, row, convention, index));
+        }
+        if let Some(payload) = &system.payload {
+            bodies.push(Body::payload(payload, rows.len()));
+        }
+        bodies.retain(|body| body.mass > 0.0);
+        Self {
+            convention,
+            mount_position: Vector3::from(system.mount.position_m),
+            mount_rotation: mount.to_rotation_matrix().into_inner(),
+            total_mass: bodies.iter().map(|body| body.mass).sum(),
+            rows,
+            bodies,
+        }
+    }
+
+    /// Number of joints j.
+    pub fn joint_count(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Mass of base, links and payload, kg.
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    /// Writes the origins of frames 0 to j at joint angles `q` (j, rad), in body axes from the base's
+    /// center of mass (m), into `origins` (j + 1). Link i is the straight segment from origin i−1 to
+    /// origin i.
+    ///
+    /// # Panics
+    /// A slice has another length.
+    pub fn origins(&self, q: &[f64], origins: &mut [Vector3<f64>]) {
+        assert_eq!((q.len(), origins.len()), (self.joint_count(), self.joint_count() + 1));
+        let mut rotation = self.mount_rotation;
+        origins[0] = self.mount_position;
+        for (i, (row, angle)) in self.rows.iter().zip(q).enumerate() {
+            let (next, arm) = row.follow(self.convention, &rotation, *angle);
+            origins[i + 1] = origins[i] + arm;
+            rotation = next;
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What a scenario asks of a plan, from the resolved file alone.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use righting_scenario::file;
+use righting_scenario::scenario::{Horizon, Scenario};
+
+use crate::clearances::Clearances;
+use crate::goal::Goal;
+use crate::model::{BaseAcceleration, Model, Motion, State};
+
+/// Everything that a plan is measured by.
+#[derive(Debug)]
+pub(super) struct Requirements {
+    pub model: Model,
+    pub horizon: Horizon,
+    /// State vector at the start: the base's center of mass at the origin, the system's at rest.
+    pub start: Vec<f64>,
+    pub goal: Goal,
+    /// One a joint.
+    pub joint_limits: Vec<JointLimits>,
+    pub clearances: Clearances,
+}
+
+/// What a joint may do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JointLimits {
+    pub angle_min_rad: Option<f64>,
+    pub angle_max_rad: Option<f64>,
+    /// In magnitude.
+    pub rate_max_rad_s: f64,
+    /// In magnitude.
+    pub acceleration_max_rad_s2: f64,
+}
+
+impl Requirements {
+    pub fn new(scenario: &Scenario) -> Self {
+        let file = scenario.resolved();
+        let system = scenario.resolved_system();
+        let model = Model::new(system);
+        let start = start(&model, &file.initial);
+        Self {
+            goal: Goal::new(&file.maneuver, &State::from_slice(&start)),
+            horizon: scenario.horizon(),
+            joint_limits: system.links.iter().map(JointLimits::new).collect(),
+            clearances: Clearances::new(system, file.collision.clearance_m.unwrap_or(0.0)),
+            model,
+            start,
+        }
+    }
+}
+
+impl JointLimits {
+    fn new(link: &file::Link) -> Self {
+        Self {
+            angle_min_rad: link.angle_min_deg.map(f64::to_radians),
+            angle_max_rad: link.angle_max_deg.map(f64::to_radians),
+            rate_max_rad_s: link.rate_max_deg_s.to_radians(),
+            acceleration_max_rad_s2: link.acceleration_max_deg_s2.to_radians(),
+        }
+    }
+}
+
+fn start(model: &Model, initial: &file::Initial) -> Vec<f64> {
+    let radians = |degrees: &[f64]| degrees.iter().map(|angle| angle.to_radians()).collect();
+    let joint_angles: Vec<f64> = radians(&initial.joint_angles_deg);
+    let joint_rates: Vec<f64> = match &initial.joint_rates_deg_s {
+        Some(rates_deg_s) => radians(rates_deg_s),
+        None => vec![0.0; joint_angles.len()],
+    };
+    let [w, x, y, z] = initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let held = State {
+        position: Vector3::zeros(),
+        attitude: UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).into_inner(),
+        velocity: Vector3::zeros(),
+        angular_rate: Vector3::from(initial.angular_rate_deg_s.unwrap_or_default())
+            .map(f64::to_radians),
+        joint_angles: &joint_angles,
+        joint_rates: &joint_rates,
+    };
+    let mut motion = Motion::new(model);
+    let coasting = vec![0.0; joint_angles.len()];
+    motion.set(model, &held, &BaseAcceleration::default(), &coasting);
+    // Carried along at this velocity, the system's center of mass is at rest.
+    let velocity = -motion.linear_momentum() / model.total_mass();
+    State { velocity, ..held }.to_vec()
+}

@@ -1,0 +1,234 @@
+use nalgebra::{UnitQuaternion, Vector3};
+use righting_results::solution::Terminal;
+use righting_results::trajectory::Trajectory;
+use righting_results::verification::Verification;
+use righting_scenario::scenario::{Horizon, Scenario};
+
+use crate::goal::Goal;
+use crate::ledger::{Ledger, Subject, Worst};
+use crate::limits;
+use crate::model::{BaseAcceleration, Motion, State};
+use crate::requirements::Requirements;
+use crate::simulation::Simulation;
+
+/// The most a slew may miss its target by, as the norm of the attitude error's vector part.
+pub const ATTITUDE_ERROR: f64 = 1e-3;
+/// A slew ends at rest when neither the base's rate nor the norm of all joint rates exceeds this,
+/// deg/s.
+pub const SLEW_AT_REST_DEG_S: f64 = 0.1;
+/// A detumble ends with the arm at rest when the norm of all joint rates does not exceed this, deg/s.
+/// What is left trades against the base's rate, so an optimum leaves some.
+pub const DETUMBLE_AT_REST_DEG_S: f64 = 1.0;
+
+const TIME_S: f64 = 1e-9;
+const QUATERNION_NORM: f64 = 1e-5;
+const ATTITUDE_RAD: f64 = 1e-4;
+const ANGULAR_RATE_RAD_S: f64 = 1e-4;
+const POSITION_M: f64 = 1e-4;
+const VELOCITY_M_S: f64 = 1e-4;
+const JOINT_RAD: f64 = 1e-6;
+const MOMENTUM: f64 = 1e-4;
+const TORQUE: f64 = 1e-6;
+
+/// Checks a trajectory against its scenario. See the [module](self) for what is checked and how.
+///
+/// Never fails: a trajectory that does not even fit its scenario is one that did not pass.
+pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
+    let asked = Requirements::new(scenario);
+    let mut ledger = Ledger::default();
+    if !shape_fits(&asked, trajectory, &mut ledger) {
+        return ledger.finish();
+    }
+    check_start(&asked, trajectory, &mut ledger);
+    let start = State::of_node(trajectory.start()).to_vec();
+    let simulation = Simulation::new(&asked.model, asked.horizon, &start, trajectory.intervals());
+    check_motion(trajectory, &simulation, &mut ledger);
+    check_momentum(&asked, trajectory, &mut ledger);
+    check_torques(&asked, trajectory, &mut ledger);
+    limits::check(&asked, trajectory, &simulation, &mut ledger);
+    check_end(&asked, &simulation.end(), &mut ledger);
+    ledger.finish()
+}
+
+/// Simulates a plan open loop: the joints do what its controls say, whatever the base does. The
+/// scenario may differ from the planned one in masses, lengths and start. What the end reaches, and
+/// the checks of that end.
+///
+/// The motion is the second integration of [`verify`]; one that cannot be followed ends in NaN. A plan
+/// that does not fit the scenario's arm and grid does not pass.
+pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verification) {
+    let asked = Requirements::new(scenario);
+    let mut ledger = Ledger::default();
+    if !shape_fits(&asked, plan, &mut ledger) {
+        return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
+    }
+    let simulation = Simulation::new(&asked.model, asked.horizon, &asked.start, plan.intervals());
+    check_end(&asked, &simulation.end(), &mut ledger);
+    (asked.goal.reached(&simulation.end()), ledger.finish())
+}
+
+/// Joints, steps and times are the scenario's.
+fn shape_fits(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) -> bool {
+    let Horizon { duration_s, steps } = asked.horizon;
+    let counts = [
+        ("number of joints", trajectory.joints(), asked.model.joint_count()),
+        ("number of steps", trajectory.steps(), steps),
+    ];
+    for (name, found, needed) in counts {
+        if found != needed {
+            ledger.require_equal(name, found, needed);
+            return false;
+        }
+    }
+    let mut times = Worst::new("time grid", "s", 0.0);
+    for (k, node) in trajectory.nodes().iter().enumerate() {
+        let error_s = (node.time_s - asked.horizon.time_s(k)).abs();
+        times.at_most(error_s, TIME_S * duration_s.max(1.0), None, Some(node.time_s));
+    }
+    ledger.add(times)
+}
+
+/// The first node is the start that was asked for.
+fn check_start(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
+    let start = trajectory.start();
+    let found = State::of_node(start).to_vec();
+    let mut worst = Worst::new("start", "", 0.0);
+    for (found, asked) in found.iter().zip(&asked.start) {
+        worst.at_most((found - asked).abs(), JOINT_RAD, None, Some(start.time_s));
+    }
+    ledger.add(worst);
+}
+
+/// Every node is where the second integration says.
+fn check_motion(trajectory: &Trajectory, simulation: &Simulation, ledger: &mut Ledger) {
+    let mut norm = Worst::new("quaternion norm error", "", 0.0);
+    let mut attitude = Worst::new("attitude mismatch", "rad", 0.0);
+    let mut angular_rate = Worst::new("angular rate mismatch", "rad/s", 0.0);
+    let mut position = Worst::new("position mismatch", "m", 0.0);
+    let mut velocity = Worst::new("velocity mismatch", "m/s", 0.0);
+    let mut joint_angle = Worst::new("joint angle mismatch", "rad", 0.0);
+    let mut joint_rate = Worst::new("joint rate mismatch", "rad/s", 0.0);
+    for (node, truth) in trajectory.nodes().iter().zip(simulation.nodes()) {
+        let time_s = Some(node.time_s);
+        let found = State::of_node(node);
+        let length = found.attitude.norm();
+        norm.at_most((length - 1.0).abs(), QUATERNION_NORM, None, time_s);
+        let [is, shall_be] = [found, truth].map(|x| UnitQuaternion::from_quaternion(x.attitude));
+        attitude.at_most(is.angle_to(&shall_be), ATTITUDE_RAD, None, time_s);
+        let rate = (found.angular_rate - truth.angular_rate).norm();
+        angular_rate.at_most(rate, ANGULAR_RATE_RAD_S, None, time_s);
+        position.at_most((found.position - truth.position).norm(), POSITION_M, None, time_s);
+        velocity.at_most((found.velocity - truth.velocity).norm(), VELOCITY_M_S, None, time_s);
+        let joints = [
+            (&mut joint_angle, found.joint_angles, truth.joint_angles),
+            (&mut joint_rate, found.joint_rates, truth.joint_rates),
+        ];
+        for (worst, found, truth) in joints {
+            for (joint, (found, truth)) in found.iter().zip(truth).enumerate() {
+                let subject = Some(Subject::Joint(joint));
+                worst.at_most((found - truth).abs(), JOINT_RAD, subject, time_s);
+            }
+        }
+    }
+    ledger.report.attitude_mismatch = attitude.value();
+    ledger.report.joint_mismatch = joint_angle.value();
+    ledger.report.position_mismatch = position.value();
+    for worst in [norm, attitude, angular_rate, position, velocity, joint_angle, joint_rate] {
+        ledger.add(worst);
+    }
+}
+
+/// Momentum about the center of mass stays what it was, and the center of mass where it was.
+fn check_momentum(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
+    let model = &asked.model;
+    let mut motion = Motion::new(model);
+    let coasting = vec![0.0; model.joint_count()];
+    let mut momentum_and_center = |state: &State<'_>| {
+        motion.set(model, state, &BaseAcceleration::default(), &coasting);
+        (motion.angular_momentum(), motion.center_of_mass())
+    };
+    let (first_momentum, first_center) = momentum_and_center(&State::from_slice(&asked.start));
+    let mut drift = Worst::new("angular momentum drift", "", 0.0);
+    let mut wander = Worst::new("center of mass drift", "m", 0.0);
+    let mut scale = first_momentum.norm();
+    let mut changes = Vec::with_capacity(trajectory.nodes().len());
+    for node in trajectory.nodes() {
+        let state = State::of_node(node);
+        let (momentum, center) = momentum_and_center(&state);
+        changes.push((momentum - first_momentum).norm());
+        let distance_m = (center - first_center).norm();
+        wander.at_most(distance_m, POSITION_M, None, Some(node.time_s));
+        // The arm's momentum alone, as if the base stood still.
+        let held = State { angular_rate: Vector3::zeros(), velocity: Vector3::zeros(), ..state };
+        scale = scale.max(momentum_and_center(&held).0.norm());
+    }
+    let scale = if scale > 0.0 { scale } else { 1.0 };
+    for (node, change) in trajectory.nodes().iter().zip(changes) {
+        drift.at_most(change / scale, MOMENTUM, None, Some(node.time_s));
+    }
+    ledger.report.momentum_drift = drift.value();
+    ledger.add(drift);
+    ledger.add(wander);
+}
+
+/// Torques and power are those of the nodes' motion.
+fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
+    let model = &asked.model;
+    let joints = model.joint_count();
+    let mut motion = Motion::new(model);
+    let mut torques = vec![0.0; joints * trajectory.nodes().len()];
+    for (k, (node, torques)) in
+        trajectory.nodes().iter().zip(torques.chunks_exact_mut(joints)).enumerate()
+    {
+        let interval = &trajectory.intervals()[k.min(trajectory.steps() - 1)];
+        let control = &interval.joint_accelerations_rad_s2;
+        model.joint_torques(&State::of_node(node), control, &mut motion, torques);
+    }
+    let largest = |values: &mut dyn Iterator<Item = &f64>| {
+        values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    };
+    let largest_n_m = largest(&mut torques.iter());
+    let fastest_rad_s =
+        largest(&mut trajectory.nodes().iter().flat_map(|node| &node.joint_rates_rad_s));
+    let tolerance_n_m = TORQUE * largest_n_m.max(1e-3);
+    let tolerance_w = tolerance_n_m * fastest_rad_s.max(1e-3) * joints as f64;
+    let mut torque = Worst::new("joint torque mismatch", "N m", 0.0);
+    let mut power = Worst::new("power mismatch", "W", 0.0);
+    for (k, (node, torques)) in
+        trajectory.nodes().iter().zip(torques.chunks_exact(joints)).enumerate()
+    {
+        let time_s = Some(node.time_s);
+        if let Some(interval) = trajectory.intervals().get(k) {
+            let pairs = interval.joint_torques_n_m.iter().zip(torques);
+            for (joint, (found, truth)) in pairs.enumerate() {
+                let subject = Some(Subject::Joint(joint));
+                torque.at_most((found - truth).abs(), tolerance_n_m, subject, time_s);
+            }
+        }
+        let rates = &node.joint_rates_rad_s;
+        let truth: f64 = torques.iter().zip(rates).map(|(torque, rate)| torque * rate).sum();
+        power.at_most((node.power_w - truth).abs(), tolerance_w, None, time_s);
+    }
+    ledger.add(torque);
+    ledger.add(power);
+}
+
+/// The maneuver does what was asked, by the second integration.
+fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
+    let time_s = Some(asked.horizon.duration_s);
+    let reached = asked.goal.reached(end);
+    let mut single = |name, unit, value, limit| {
+        let mut worst = Worst::new(name, unit, 0.0);
+        worst.at_most(value, limit, None, time_s);
+        ledger.add(worst);
+    };
+    let (base_rate, joint_rate) = match asked.goal {
+        Goal::Attitude(_) => {
+            single("attitude error at the end", "", reached.attitude_error, ATTITUDE_ERROR);
+            (SLEW_AT_REST_DEG_S, SLEW_AT_REST_DEG_S)
+        }
+        Goal::LessRate { start_deg_s } => (start_deg_s, DETUMBLE_AT_REST_DEG_S),
+    };
+    single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);
+    single("joint rate at the end", "deg/s", reached.joint_rate_deg_s, joint_rate);
+}
