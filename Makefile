@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-slurm bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -17,6 +17,10 @@ test:
 test-slurm: setup
 	cargo build --release --locked
 	scripts/test-slurm.sh
+
+# Errors planted in the planner's model, each caught by the verifier's: 11 minutes of one core.
+test-planted: setup
+	scripts/test-planted-errors.sh
 
 # The same on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:

@@ -10,8 +10,8 @@ use crate::finite_or_null::FiniteOrNull;
 /// Outcome of the independent check: by another model of the system and another integrator than the
 /// planner's.
 ///
-/// The first five numbers compare the trajectory with what that model and integrator make of its first
-/// node and its controls alone.
+/// The mismatches compare the trajectory with what that model and integrator make of its first node
+/// and its controls alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Verification {
     /// Whether every check passed.

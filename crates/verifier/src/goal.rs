@@ -1,6 +1,6 @@
 //! What the end of a maneuver shall be, and what it is.
 
-use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use righting_results::solution::Terminal;
 use righting_scenario::file;
 
@@ -21,13 +21,17 @@ pub(super) enum Goal {
 impl Goal {
     /// Of a resolved scenario that starts in the state `start`.
     pub fn new(maneuver: &file::Maneuver, start: &State<'_>) -> Self {
-        match (maneuver.axis, maneuver.angle_deg) {
-            (Some(axis), Some(angle_deg)) => {
-                let axis = Unit::new_normalize(Vector3::from(axis));
-                let turn = UnitQuaternion::from_axis_angle(&axis, angle_deg.to_radians());
+        match maneuver.kind {
+            file::ManeuverType::Slew => {
+                // A slew without them was refused when the scenario was read.
+                let axis = Unit::new_normalize(Vector3::from(maneuver.axis.unwrap_or_default()));
+                let angle_rad = maneuver.angle_deg.unwrap_or(f64::NAN).to_radians();
+                let turn = UnitQuaternion::from_axis_angle(&axis, angle_rad);
                 Self::Attitude(UnitQuaternion::from_quaternion(start.attitude) * turn)
             }
-            _ => Self::LessRate { start_deg_s: start.angular_rate.norm().to_degrees() },
+            file::ManeuverType::Detumble => {
+                Self::LessRate { start_deg_s: start.angular_rate.norm().to_degrees() }
+            }
         }
     }
 
@@ -36,9 +40,8 @@ impl Goal {
         let (attitude_error, attitude_error_deg) = match self {
             Self::Attitude(target) => {
                 let error = target.conjugate().into_inner() * end.attitude.normalize();
-                let Quaternion { coords } = error;
                 let vector = error.imag().norm();
-                (vector, 2.0 * vector.atan2(coords.w.abs()).to_degrees())
+                (vector, 2.0 * vector.atan2(error.scalar().abs()).to_degrees())
             }
             Self::LessRate { .. } => (0.0, 0.0),
         };

@@ -149,13 +149,13 @@ proptest! {
         let Ok(scenario) = Scenario::from_file(resolved, Path::new("arm.json")) else {
             return Ok(());
         };
-        let verification = verify(&scenario, &motion(&scenario, &vec![sample.joints[2].clone(); 4]));
+        let trajectory = motion(&scenario, &vec![sample.joints[2].clone(); 4]);
+        let verification = verify(&scenario, &trajectory);
         for check in &verification.checks {
             let is_limit = check.name.contains("clearance") || check.name.ends_with("at the end");
             prop_assert!(check.passed || is_limit, "{check}");
         }
         // The verdicts on clearances are the planner's.
-        let trajectory = motion(&scenario, &vec![sample.joints[2].clone(); 4]);
         let closest = trajectory
             .nodes()
             .iter()

@@ -6,7 +6,7 @@ use righting_analysis::detumble;
 use righting_results::{Check, Node, Terminal, Trajectory, Verification, objective};
 use righting_scenario::{Maneuver, Scenario};
 use righting_test_support::{motion, shipped, swing, tampered, true_slew, varied};
-use righting_verifier::verify;
+use righting_verifier::{simulate, verify};
 
 fn failures(verification: &Verification) -> Vec<&str> {
     verification.failures().map(|check| check.name.as_str()).collect()
@@ -290,6 +290,31 @@ fn doing_nothing_is_a_poor_but_true_detumble() {
         let bound = detumble::rate_bound_rad_s(&scenario).to_degrees();
         assert!(bound < reached.angular_rate_deg_s && bound > 8.0, "{system}: {bound}");
     }
+}
+
+#[test]
+fn a_plan_is_simulated_in_the_system_that_is_given() {
+    let (scenario, plan) = example();
+    let (reached, verification) = simulate(&scenario, &plan);
+    assert!(verification.passed && reached.attitude_error < 1e-9, "{}", reached.attitude_error);
+
+    let heavier = varied(&scenario, |file| {
+        let righting_scenario::file::SystemReference::Inline(system) = &mut file.system else {
+            panic!("a resolved system is inline")
+        };
+        system.links[1].mass_kg *= 10.0;
+    });
+    let (reached, _) = simulate(&heavier, &plan);
+    assert!(reached.attitude_error > 1e-6, "{}", reached.attitude_error);
+    // What the planner's model makes of the same controls.
+    let controls: Vec<_> =
+        plan.intervals().iter().map(|i| i.joint_accelerations_rad_s2.clone()).collect();
+    let expected = Terminal::reached(&heavier, &motion(&heavier, &controls));
+    assert!((reached.attitude_error - expected.attitude_error).abs() < 1e-9);
+    assert!((reached.attitude_error_deg - expected.attitude_error_deg).abs() < 1e-7);
+
+    let (_, verification) = simulate(&shipped("slew_2dof"), &plan);
+    assert_eq!(failures(&verification), ["number of joints"]);
 }
 
 #[test]
