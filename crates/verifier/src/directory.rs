@@ -34,7 +34,7 @@ pub struct Verified {
 ///
 /// # Errors
 /// Those of reading the two files. A plan that is wrong is no error: see
-/// [`Verification::passed`](crate::Verification::passed).
+/// [`Verification::passed`](righting_results::Verification::passed).
 pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
     let solution_file: PathBuf = folder.join(SOLUTION_FILE);
     let solution = Solution::read_json(&solution_file)?;
