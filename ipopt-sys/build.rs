@@ -132,8 +132,10 @@ fn build_ma57_library() {
     const SOURCE: &str = "src/hsl/ma57_library.c";
     println!("cargo:rerun-if-changed={SOURCE}");
     let library = Path::new(&env::var_os("OUT_DIR").unwrap_or_default()).join("ma57_library.so");
-    let mut command = cc::Build::new().pic(true).get_compiler().to_command();
-    command.args(["-shared", "-nostdlib", "-s", "-o"]).arg(&library).arg(SOURCE);
+    let mut command = cc::Build::new().pic(true).opt_level(2).get_compiler().to_command();
+    // Two kilobytes instead of thirteen: a limit on the size of files holds for files in memory too.
+    command.args(["-shared", "-nostdlib", "-s", "-Wl,-z,noseparate-code,-z,norelro", "-o"]);
+    command.arg(&library).arg(SOURCE);
     match command.status() {
         Ok(status) if status.success() => {}
         outcome => {

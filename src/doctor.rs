@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use righting_ipopt::versions;
 use righting_ocp::{
-    Control, ControlProblem, Grid, Guess, Interval, LinearSolver, MultipleShooting, OcpError,
-    Optimizer, Settings, StageFunctions, Start,
+    ComponentBounds, Control, ControlProblem, Grid, InitialGuess, LinearSolverChoice,
+    MultipleShooting, OcpError, OcpStart, Optimizer, Settings, StageFunctions,
 };
 use righting_symbolic::{InstructionSet, LANES};
 use serde::Serialize;
@@ -38,7 +38,7 @@ struct Diagnosis {
     slot: String,
     /// Whether Ipopt called the stage solver when it solved with it.
     stage_solver_called: bool,
-    libraries: Vec<Library>,
+    libraries: Vec<LoadedLibrary>,
     linear_solvers: Vec<&'static str>,
     instruction_set: String,
     instruction_sets_available: Vec<String>,
@@ -48,7 +48,7 @@ struct Diagnosis {
 
 /// A shared library in use.
 #[derive(Serialize)]
-struct Library {
+struct LoadedLibrary {
     name: &'static str,
     version: Option<String>,
     path: PathBuf,
@@ -114,7 +114,7 @@ fn diagnose() -> Diagnosis {
         libraries: found
             .libraries
             .into_iter()
-            .map(|library| Library {
+            .map(|library| LoadedLibrary {
                 name: library.name,
                 version: library.version,
                 path: library.path,
@@ -133,15 +133,15 @@ fn stage_solver_calls() -> Result<usize, OcpError> {
     const STEPS: usize = 10;
     let problem = ControlProblem::new(2, 1, |x, u| vec![x[1], u[0]])
         .running_cost(|_, u| u[0] * u[0])
-        .terminal_constraints(Interval::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
+        .terminal_constraints(ComponentBounds::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
     let functions = StageFunctions::compile(&problem)?;
     let mut program = MultipleShooting::new(&functions, Grid::new(1.0, STEPS)?, &[0.0, 0.0])?;
     let settings = Settings {
         optimizer: Optimizer::Ipopt,
-        linear_solver: LinearSolver::Stage,
+        linear_solver: LinearSolverChoice::Stage,
         ..Settings::default()
     };
-    let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let start = OcpStart::Guess(InitialGuess::constant(&[0.0, 0.0], 1, STEPS));
     let solution = program.solve(&start, &settings, |_| Control::Continue)?;
     Ok(solution.timing.linear_solver.map_or(0, |timing| timing.factor.calls))
 }

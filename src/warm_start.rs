@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use righting_planner::Library;
+use righting_planner::PlanLibrary;
 use righting_planner::library::is_same_arm;
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::{Error, Scenario};
@@ -28,7 +28,7 @@ pub enum WarmStart {
         note: Option<String>,
     },
     /// The nearest plan of a library.
-    Library(Library),
+    Library(PlanLibrary),
 }
 
 impl WarmStart {
@@ -65,7 +65,7 @@ impl WarmStart {
         refuse_file(folder, "the folder of a library")?;
         std::fs::create_dir_all(folder)
             .map_err(|source| Error::Write { file: folder.to_owned(), source })?;
-        Ok(Self::Library(Library::read(folder)?))
+        Ok(Self::Library(PlanLibrary::read(folder)?))
     }
 
     /// Says what a reader of the plan should know: in its notes, and on stderr what of the library was
@@ -79,7 +79,7 @@ impl WarmStart {
     }
 }
 
-fn warn_of_skipped(library: &Library) {
+fn warn_of_skipped(library: &PlanLibrary) {
     let shown = library.folder().display();
     let warn = |text: &str| output::say(Label::Warning, &format!("{shown}: skipped {text}"));
     for skipped in library.skipped().iter().take(MOST_WARNINGS) {

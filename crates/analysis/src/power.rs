@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 use righting_multibody::{State, System};
 use righting_results::FiniteOrNull;
-use righting_results::trajectory::{Interval, Node, Trajectory};
+use righting_results::trajectory::{ControlInterval, Node, Trajectory};
 use righting_scenario::error::ShapeError;
 use righting_scenario::scenario::Scenario;
 use righting_verifier::DormandPrince;
@@ -197,7 +197,7 @@ fn within(
     model: &System,
     integrator: &mut DormandPrince,
     node: &Node,
-    interval: &Interval,
+    interval: &ControlInterval,
     [start_s, end_s]: [f64; 2],
 ) -> Vec<Instant> {
     let control = &interval.joint_accelerations_rad_s2;

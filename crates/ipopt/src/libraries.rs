@@ -12,12 +12,12 @@ pub struct Versions {
     pub ipopt: String,
     /// Ipopt, MUMPS, MPI, BLAS and LAPACK as the process has loaded them: none before the first
     /// solve, and none where the system does not say (only Linux does).
-    pub libraries: Vec<Library>,
+    pub libraries: Vec<LoadedLibrary>,
 }
 
 /// A shared library that the process has loaded.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Library {
+pub struct LoadedLibrary {
     /// What it is: Ipopt, MUMPS, MPI, BLAS or LAPACK.
     pub name: &'static str,
     /// The file, links resolved. Its directory tells one BLAS from another on Debian.
@@ -32,7 +32,7 @@ pub fn versions() -> Versions {
     Versions { ipopt: ipopt_version(&libraries), libraries }
 }
 
-fn ipopt_version(libraries: &[Library]) -> String {
+fn ipopt_version(libraries: &[LoadedLibrary]) -> String {
     if let Some(get) = sys::api_in_use().and_then(|ipopt| ipopt.GetIpoptVersion) {
         let (mut major, mut minor, mut release): (c_int, c_int, c_int) = (0, 0, 0);
         // SAFETY: it writes one number to each.
@@ -60,9 +60,9 @@ const PREFIXES: [(&str, &str); 9] = [
     ("libmkl_rt", "BLAS"),
 ];
 
-fn loaded_libraries() -> Vec<Library> {
+fn loaded_libraries() -> Vec<LoadedLibrary> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
-    let mut libraries: Vec<Library> = maps
+    let mut libraries: Vec<LoadedLibrary> = maps
         .lines()
         .filter_map(|line| line.find('/').map(|start| Path::new(&line[start..])))
         .filter_map(library)
@@ -72,10 +72,10 @@ fn loaded_libraries() -> Vec<Library> {
     libraries
 }
 
-fn library(path: &Path) -> Option<Library> {
+fn library(path: &Path) -> Option<LoadedLibrary> {
     let file = path.file_name()?.to_str()?;
     let (_, name) = PREFIXES.iter().find(|(prefix, _)| file.starts_with(prefix))?;
-    Some(Library { name, path: path.to_owned(), version: version_in(file) })
+    Some(LoadedLibrary { name, path: path.to_owned(), version: version_in(file) })
 }
 
 /// `5.5` in `libdmumps_seq-5.5.so`, `0.3.21` in `libopenblasp-r0.3.21.so`, `3.11.0` in
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn another_file_is_not_said_to_be_the_version_built_for() {
-        let library = |file: &str| Library {
+        let library = |file: &str| LoadedLibrary {
             name: "Ipopt",
             path: Path::new("/usr/lib").join(file),
             version: None,

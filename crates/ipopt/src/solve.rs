@@ -74,7 +74,7 @@ impl<P: Problem + ?Sized> Solve<'_, P> {
         declarations.check_start(self.start)?;
 
         let ipopt = sys::api()?;
-        let mut point = Point::of(self.start, &declarations);
+        let mut point = Iterate::of(self.start, &declarations);
         let trap = Trap::default();
         let (status, report, last_iteration, timing) = {
             // Outlives the handle: freeing it frees what MUMPS holds.
@@ -177,14 +177,14 @@ fn judge(status: Status, report: Report) -> Result<Status, SolveError> {
 }
 
 /// The start, that becomes the solution.
-struct Point {
+struct Iterate {
     x: Vec<f64>,
     objective: f64,
     g: Vec<f64>,
     multipliers: Multipliers,
 }
 
-impl Point {
+impl Iterate {
     fn of(start: &Start, declarations: &Declarations) -> Self {
         Self {
             x: start.x.clone(),

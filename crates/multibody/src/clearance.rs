@@ -14,7 +14,7 @@ use righting_scalar::Scalar;
 
 /// A link's segment in the axes of the joint that moves it, from that joint's origin; in the axes
 /// that joint 1 turns in, from the mount, for a link fixed to the base.
-struct Place {
+struct LocalSegment {
     joint: Option<usize>,
     direction: Vector3<f64>,
 }
@@ -34,7 +34,7 @@ impl System {
     pub fn squared_distance_to_base<T: Scalar>(&self, q: &[T], link: usize) -> T {
         let chain = &self.chain;
         let to_root = chain.root_rotation.transpose();
-        let Place { joint, direction } = self.place(link);
+        let LocalSegment { joint, direction } = self.place(link);
         let origin = -(to_root * chain.root_position);
         let Some(joint) = joint else {
             let start = -direction;
@@ -98,7 +98,7 @@ impl System {
         carried
     }
 
-    fn place(&self, link: usize) -> Place {
+    fn place(&self, link: usize) -> LocalSegment {
         let joint = match self.convention() {
             DhConvention::Standard => Some(link),
             DhConvention::Modified => link.checked_sub(1),
@@ -110,7 +110,7 @@ impl System {
                 self.chain.root_rotation.transpose() * offset
             }
         };
-        Place { joint, direction }
+        LocalSegment { joint, direction }
     }
 }
 

@@ -28,13 +28,18 @@ fn main() -> Result<(), OcpError> {
     let step_s = DURATION_S / STEPS as f64;
     let problem = ControlProblem::new(4, 1, cart_pole)
         .running_cost(move |_, u| u[0] * u[0] * step_s)
-        .terminal_constraints(Interval::new(goal.clone(), goal.clone()), |x| x.to_vec())
-        .state_bounds(Interval::symmetric(&[2.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]))
-        .control_bounds(Interval::symmetric(&[20.0]));
+        .terminal_constraints(ComponentBounds::new(goal.clone(), goal.clone()), |x| x.to_vec())
+        .state_bounds(ComponentBounds::symmetric(&[
+            2.0,
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::INFINITY,
+        ]))
+        .control_bounds(ComponentBounds::symmetric(&[20.0]));
     let functions = StageFunctions::compile(&problem)?;
 
     let start = [0.0; 4];
-    let mut guess = Guess::constant(&start, 1, STEPS);
+    let mut guess = InitialGuess::constant(&start, 1, STEPS);
     for node in 0..=STEPS {
         let progress = node as f64 / STEPS as f64;
         let row = guess.states.row_mut(node);
@@ -42,7 +47,7 @@ fn main() -> Result<(), OcpError> {
     }
     let mut program = MultipleShooting::new(&functions, Grid::new(DURATION_S, STEPS)?, &start)?;
     let solution =
-        program.solve(&Start::Guess(guess), &Settings::default(), |_| Control::Continue)?;
+        program.solve(&OcpStart::Guess(guess), &Settings::default(), |_| Control::Continue)?;
 
     println!("{:?}, effort {:.3} N² s", solution.status, solution.objective);
     for (node, state) in solution.states.rows().enumerate().step_by(10) {

@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 /// Why a problem cannot be transcribed or a start cannot be used. A solve that does not converge
-/// is not an error: it is a status of the [`Solution`](crate::Solution).
+/// is not an error: it is a status of the [`OcpSolution`](crate::OcpSolution).
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OcpError {

@@ -11,18 +11,17 @@
 //! [`MultipleShooting`] evaluates all stages in batches and hands the optimizer exact sparse derivatives.
 //!
 //! ```
-//! use num_dual::DualNum;
 //! use righting_ocp::*;
 //!
 //! // A double integrator from rest at 0 to rest at 1 in one second with the least effort ∫u²:
 //! // u(t) = 6 − 12 t, cost 12.
 //! let problem = ControlProblem::new(2, 1, |x, u| vec![x[1], u[0]])
 //!     .running_cost(|_, u| u[0].powi(2) / 50.0)
-//!     .terminal_constraints(Interval::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
+//!     .terminal_constraints(ComponentBounds::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
 //! let functions = StageFunctions::compile(&problem)?;
 //! let grid = Grid::new(1.0, 50)?;
 //! let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0])?;
-//! let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, 50));
+//! let start = OcpStart::Guess(InitialGuess::constant(&[0.0, 0.0], 1, 50));
 //! let solution = program.solve(&start, &Settings::default(), |_| Control::Continue)?;
 //! assert_eq!(solution.status, Status::Solved);
 //! assert!((solution.objective - 12.0).abs() < 0.01);
@@ -30,47 +29,62 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod attempt;
 mod block;
-mod curvature;
+mod component_bounds;
+mod control_problem;
+mod decision_layout;
 mod derivative_check;
 mod error;
+mod evaluation;
+mod evaluator;
+mod expr_matrix;
 mod grid;
+mod initial_guess;
 pub mod kkt;
-mod layout;
-mod matrix;
-mod nlp;
+mod matrix_output;
+mod mesh_refinement;
+mod multiple_shooting;
+mod node_function;
+mod ocp_solution;
+mod ocp_start;
 mod passive;
-mod point;
-mod problem;
-mod refine;
+mod primal_dual_point;
 mod resample;
 mod rk4;
 mod samples;
-mod solution;
+mod second_order;
+mod settings;
 mod solve;
 mod sparsity;
-mod stage;
-mod start;
-mod step;
+mod stage_functions;
+mod stage_store;
+mod step_derivatives;
+mod step_functions;
 mod structure;
 mod trajectory;
-mod worker;
 
-pub use curvature::Curvature;
+pub use attempt::{Attempt, AttemptEnd, UsedLinearSolver};
+pub use component_bounds::ComponentBounds;
+pub use control_problem::ControlProblem;
+pub use decision_layout::{DecisionLayout, ShootingDimensions};
 pub use derivative_check::DerivativeErrors;
 pub use error::OcpError;
 pub use grid::Grid;
-pub use layout::{Dimensions, Layout};
-pub use nlp::MultipleShooting;
-pub use point::Point;
-pub use problem::{ControlProblem, Interval};
-pub use refine::{close_guess_settings, refine};
+pub use initial_guess::InitialGuess;
+pub use mesh_refinement::{MeshRefinement, close_guess_settings};
+pub use multiple_shooting::MultipleShooting;
+pub use ocp_solution::OcpSolution;
+pub use ocp_start::OcpStart;
+pub use primal_dual_point::PrimalDualPoint;
+pub use rk4::{RungeKutta4, StagePoint};
 pub use samples::Samples;
-pub use solution::Solution;
-pub use solve::{Attempt, AttemptEnd, LinearSolver, Optimizer, Settings, UsedLinearSolver};
+pub use second_order::Curvature;
+pub use settings::{LinearSolverChoice, Optimizer, Settings};
 pub use sparsity::KktSparsity;
-pub use stage::StageFunctions;
-pub use start::{Guess, Start};
+pub use stage_functions::StageFunctions;
 
-pub use righting_nlp::{Control, Iteration, Options, Status, Timing};
-pub use righting_symbolic::Backend;
+pub use num_dual::DualNum;
+pub use righting_nlp::{Control, Iteration, Options, ReducedHessian, Status, Timing};
+pub use righting_scalar::Scalar;
+pub use righting_symbolic::{Backend, Expr};

@@ -1,6 +1,6 @@
 use righting_symbolic::{Expr, jacobian};
 
-use crate::problem::ControlProblem;
+use crate::control_problem::ControlProblem;
 
 /// The states that the optimum depends on: those that `seen` (costs and constraints) or a finite
 /// bound reads, and those whose rates such states need.

@@ -1,15 +1,15 @@
-use crate::layout::{Dimensions, Layout};
-use crate::point::Point;
+use crate::decision_layout::{DecisionLayout, ShootingDimensions};
+use crate::primal_dual_point::PrimalDualPoint;
 
 /// Weights of linear interpolation: `(1 − fraction) · before + fraction · after`.
 #[derive(Clone, Copy)]
-struct Between {
+struct LinearInterpolation {
     before: usize,
     after: usize,
     fraction: f64,
 }
 
-impl Between {
+impl LinearInterpolation {
     /// At `position` among samples at 0, 1, …, `last`; held beyond the ends.
     fn new(position: f64, last: usize) -> Self {
         let position = position.clamp(0.0, last as f64);
@@ -22,7 +22,7 @@ impl Between {
     }
 }
 
-impl Point {
+impl PrimalDualPoint {
     /// The point carried over to a grid of `steps` steps over the same horizon, from `initial`, x_0
     /// without the passive states.
     ///
@@ -32,7 +32,7 @@ impl Point {
     pub fn resampled(&self, initial: &[f64], steps: usize) -> Self {
         let old = self.layout;
         let coarse = old.dimensions().steps;
-        let layout = Layout::new(Dimensions { steps, ..old.dimensions() });
+        let layout = DecisionLayout::new(ShootingDimensions { steps, ..old.dimensions() });
         let ratio = coarse as f64 / steps as f64;
         let mut point = Self {
             layout,
@@ -42,7 +42,7 @@ impl Point {
             upper: vec![0.0; layout.variables()],
         };
         for step in 0..steps {
-            let middle = Between::new((step as f64 + 0.5) * ratio - 0.5, coarse - 1);
+            let middle = LinearInterpolation::new((step as f64 + 0.5) * ratio - 0.5, coarse - 1);
             for (index, target) in layout.control(step).enumerate() {
                 let source = |k: usize| old.control(k).start + index;
                 point.z[target] = middle.blend(|k| self.z[source(k)]);
@@ -50,8 +50,8 @@ impl Point {
                 point.upper[target] = ratio * middle.blend(|k| self.upper[source(k)]);
             }
             // Node k is sample k; the quantities that only exist at nodes 1…N hold before node 1.
-            let node = Between::new((step as f64 + 1.0) * ratio, coarse);
-            let inner = Between::new((step as f64 + 1.0) * ratio - 1.0, coarse - 1);
+            let node = LinearInterpolation::new((step as f64 + 1.0) * ratio, coarse);
+            let inner = LinearInterpolation::new((step as f64 + 1.0) * ratio - 1.0, coarse - 1);
             for (index, target) in layout.state(step + 1).enumerate() {
                 let source = |k: usize| old.state(k).start + index;
                 point.z[target] =
@@ -78,9 +78,14 @@ mod tests {
     use super::*;
 
     /// One state x = t², one control u = 2t held at the middle of each step, on t ∈ [0, 1].
-    fn parabola(steps: usize) -> Point {
-        let layout =
-            Layout::new(Dimensions { states: 1, controls: 1, path: 1, terminal: 0, steps });
+    fn parabola(steps: usize) -> PrimalDualPoint {
+        let layout = DecisionLayout::new(ShootingDimensions {
+            states: 1,
+            controls: 1,
+            path: 1,
+            terminal: 0,
+            steps,
+        });
         let mut z = vec![0.0; layout.variables()];
         let mut constraints = vec![0.0; layout.constraints()];
         for k in 0..steps {
@@ -91,7 +96,7 @@ mod tests {
             constraints[layout.path(k + 1).start] = 1.0 / steps as f64;
         }
         let bounds = vec![0.5 / steps as f64; z.len()];
-        Point { layout, z, constraints, lower: bounds.clone(), upper: bounds }
+        PrimalDualPoint { layout, z, constraints, lower: bounds.clone(), upper: bounds }
     }
 
     #[test]

@@ -1,104 +1,111 @@
-//! One classical Runge–Kutta step and its exact derivatives, composed from the derivatives of ẋ at
-//! the four stage points y_1…y_4 (not from one graph of the whole step: the joint states of a
-//! mechanical system then cost next to nothing, and ẋ is differentiated once instead of four times).
-//!
-//! With z = (x, u), K_i = d k_i/dz and Y_i = d(y_i, u)/dz,
+//! The classical Runge–Kutta method (Kutta 1901; Hairer, Nørsett & Wanner, *Solving Ordinary
+//! Differential Equations I*, section II.1)
 //!
 //! ```text
-//! y_1 = x,  y_i = x + c_i h k_{i−1},  c = (·, ½, ½, 1)          Y_i = [[I 0] + c_i h K_{i−1}; [0 I]]
-//! F = x + h/6 (k_1 + 2 k_2 + 2 k_3 + k_4)                       K_i = J_i Y_i
-//! μ_4 = h/6 λ,  μ_i = b_i h λ + c_{i+1} h J_{i+1,x}ᵀ μ_{i+1}     ∇²(λᵀF) = Σ Y_iᵀ ∇²(μ_iᵀ f)(y_i, u) Y_i
+//! y_1 = x,  y_i = x + c_i h k_{i−1},  k_i = ẋ(y_i),  c = (·, ½, ½, 1)
+//! F = x + h Σ b_i k_i,  b = (1, 2, 2, 1)/6
 //! ```
-
-use righting_symbolic::Expr;
-
-use crate::matrix::ExprMatrix;
 
 /// Number of stages.
 pub(crate) const STAGES: usize = 4;
-/// y_i = x + NODE[i] · h · k_{i−1}.
+/// c, y_i = x + NODE\[i\] · h · k_{i−1}.
 pub(crate) const NODE: [f64; STAGES] = [0.0, 0.5, 0.5, 1.0];
-/// F = x + h Σ WEIGHT[i] k_i.
+/// b, F = x + h Σ WEIGHT\[i\] k_i.
 pub(crate) const WEIGHT: [f64; STAGES] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-/// The derivatives of ẋ at the four stage points, as expressions.
-pub(crate) struct Composition {
-    step: Expr,
-    states: usize,
-    /// ∂f/∂(x, u) at each stage point.
-    jacobians: Vec<ExprMatrix>,
-    /// Y_i at each stage point.
-    sensitivities: Vec<ExprMatrix>,
-    /// K_i at each stage point.
-    slopes: Vec<ExprMatrix>,
+/// Takes steps of the classical Runge–Kutta method. It allocates only when it is made.
+///
+/// ```
+/// use righting_ocp::RungeKutta4;
+///
+/// // ẋ = −x from 1 over one second.
+/// let (mut method, mut x) = (RungeKutta4::new(1), vec![1.0]);
+/// for _ in 0..10 {
+///     let next = method.step(0.1, &x, |stage| {
+///         let mut point = [0.0];
+///         stage.write_point(&mut point);
+///         stage.set_rates(&[-point[0]]);
+///     });
+///     x = next.to_vec();
+/// }
+/// assert!((x[0] - (-1.0_f64).exp()).abs() < 1e-6);
+/// ```
+#[derive(Debug, Clone)]
+pub struct RungeKutta4 {
+    rates: Vec<f64>,
+    next: Vec<f64>,
 }
 
-impl Composition {
-    /// Composes from `jacobians`, ∂f/∂(x, u) at y_1…y_4, each `states × (states + controls)`.
-    pub(crate) fn new(
-        step: Expr,
-        states: usize,
-        controls: usize,
-        jacobians: Vec<ExprMatrix>,
-    ) -> Self {
-        let columns = states + controls;
-        let identity = ExprMatrix::identity(states, columns);
-        let mut control_rows = ExprMatrix::zeros(controls, columns);
-        for i in 0..controls {
-            *control_rows.at_mut(i, states + i) = Expr::constant(1.0);
-        }
-        let mut sensitivities: Vec<ExprMatrix> = Vec::with_capacity(STAGES);
-        let mut slopes: Vec<ExprMatrix> = Vec::with_capacity(STAGES);
-        for (stage, jacobian) in jacobians.iter().enumerate() {
-            let state_rows = match slopes.last() {
-                None => identity.clone(),
-                Some(slope) => identity.plus_scaled(step * NODE[stage], slope),
-            };
-            let sensitivity = state_rows.stacked(&control_rows);
-            slopes.push(jacobian.times(&sensitivity));
-            sensitivities.push(sensitivity);
-        }
-        Self { step, states, jacobians, sensitivities, slopes }
+/// One stage of a step: where to evaluate ẋ, and where its value goes.
+#[derive(Debug)]
+pub struct StagePoint<'a> {
+    index: usize,
+    state: &'a [f64],
+    /// c_i h.
+    offset: f64,
+    /// k_{i−1}, then k_i.
+    rates: &'a mut [f64],
+}
+
+impl RungeKutta4 {
+    /// For so many states.
+    pub fn new(states: usize) -> Self {
+        Self { rates: vec![0.0; states], next: vec![0.0; states] }
     }
 
-    /// ∂F/∂(x, u).
-    pub(crate) fn step_jacobian(&self) -> ExprMatrix {
-        let [first, second, third, fourth] = [0, 1, 2, 3].map(|stage| &self.slopes[stage]);
-        // The inner pair first: k_2 and k_3 carry the same weight.
-        let one = Expr::constant(1.0);
-        let outer = first.plus_scaled(one, fourth);
-        let inner = second.plus_scaled(one, third);
-        let columns = ExprMatrix::identity(self.states, self.sensitivities[0].columns());
-        let sum = outer.plus_scaled(Expr::constant(2.0), &inner);
-        columns.plus_scaled(self.step * WEIGHT[0], &sum)
+    /// One step of length `h` from `state`; `evaluate` sets the rates of each of the four stages.
+    pub fn step(
+        &mut self,
+        h: f64,
+        state: &[f64],
+        mut evaluate: impl FnMut(&mut StagePoint<'_>),
+    ) -> &[f64] {
+        let mut next = std::mem::take(&mut self.next);
+        next.copy_from_slice(state);
+        self.stages(h, state, |stage| {
+            evaluate(stage);
+            add_scaled(&mut next, WEIGHT[stage.index] * h, stage.rates);
+        });
+        self.next = next;
+        &self.next
     }
 
-    /// μ_1…μ_4 for the multipliers λ of F.
-    pub(crate) fn stage_multipliers(&self, multipliers: &[Expr]) -> Vec<Vec<Expr>> {
-        let mut stages = vec![Vec::new(); STAGES];
-        for stage in (0..STAGES).rev() {
-            let direct = multipliers.iter().map(|&l| self.step * WEIGHT[stage] * l);
-            stages[stage] = match stages.get(stage + 1) {
-                None => direct.collect(),
-                Some(next) => {
-                    let scale = self.step * NODE[stage + 1];
-                    let pulled = self.jacobians[stage + 1]
-                        .leading_columns(self.states)
-                        .transposed_times(next);
-                    direct.zip(pulled).map(|(d, p)| d + scale * p).collect()
-                }
-            };
+    /// The stages of such a step alone.
+    pub(crate) fn stages(
+        &mut self,
+        h: f64,
+        state: &[f64],
+        mut evaluate: impl FnMut(&mut StagePoint<'_>),
+    ) {
+        for (index, node) in NODE.into_iter().enumerate() {
+            let rates = &mut self.rates;
+            evaluate(&mut StagePoint { index, state, offset: node * h, rates });
         }
-        stages
+    }
+}
+
+impl StagePoint<'_> {
+    /// Number of the stage, from zero.
+    pub fn index(&self) -> usize {
+        self.index
     }
 
-    /// The lower triangle of ∇²(λᵀF) from `hessians`, ∇²(μ_iᵀ f) at the stage points.
-    pub(crate) fn step_hessian(&self, hessians: &[ExprMatrix]) -> ExprMatrix {
-        let size = self.sensitivities[0].columns();
-        let mut sum = ExprMatrix::zeros(size, size);
-        for (sensitivity, hessian) in self.sensitivities.iter().zip(hessians) {
-            sensitivity.add_congruence_lower(hessian, &mut sum);
+    /// Writes y_i.
+    pub fn write_point(&self, point: &mut [f64]) {
+        point.copy_from_slice(self.state);
+        if self.offset != 0.0 {
+            add_scaled(point, self.offset, self.rates);
         }
-        sum
+    }
+
+    /// Takes k_i = ẋ(y_i).
+    pub fn set_rates(&mut self, rates: &[f64]) {
+        self.rates.copy_from_slice(rates);
+    }
+}
+
+fn add_scaled(sum: &mut [f64], scale: f64, terms: &[f64]) {
+    for (sum, &term) in sum.iter_mut().zip(terms) {
+        *sum += scale * term;
     }
 }

@@ -1,103 +1,17 @@
 use std::time::Duration;
 
 use righting_interior::InteriorError;
-use righting_ipopt::{
-    Control, Iteration, Multipliers, Options, ReducedHessian, SolveError, Status,
-};
+use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
 
+use crate::attempt::{Attempt, AttemptEnd, UsedLinearSolver};
+use crate::component_bounds::ComponentBounds;
 use crate::error::OcpError;
 use crate::kkt::{NodeDims, StageDims, StageKkt};
-use crate::nlp::MultipleShooting;
-use crate::point::Point;
-use crate::problem::Interval;
-use crate::solution::Solution;
-use crate::start::Start;
-
-/// What factorises Ipopt's linear systems.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum LinearSolver {
-    /// The stage solver, and MUMPS where it does not succeed.
-    #[default]
-    Auto,
-    /// MUMPS, the general sparse solver that comes with Ipopt.
-    Mumps,
-    /// The stage solver alone.
-    Stage,
-}
-
-/// What factorised the linear systems of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UsedLinearSolver {
-    /// MUMPS.
-    Mumps,
-    /// The stage solver.
-    Stage,
-    /// The stage solver did not succeed and MUMPS solved the problem again from its start.
-    MumpsAfterStage,
-}
-
-/// Who makes the iterations, or made them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Optimizer {
-    /// Ipopt.
-    #[default]
-    Ipopt,
-    /// [`righting_interior`], and Ipopt from the same start where that gives up. It solves with the
-    /// stage solver only: with [`LinearSolver::Mumps`] Ipopt makes the iterations.
-    Interior,
-}
-
-/// One attempt to solve a program on one grid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Attempt {
-    /// Number of steps of the grid.
-    pub steps: usize,
-    /// Who made the iterations.
-    pub optimizer: Optimizer,
-    /// What factorised the linear systems.
-    pub linear_solver: UsedLinearSolver,
-    /// How it ended.
-    pub end: AttemptEnd,
-    /// Number of iterations; the start is not one.
-    pub iterations: usize,
-    /// Wall time.
-    pub time: Duration,
-}
-
-/// How an attempt ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum AttemptEnd {
-    /// With this status.
-    Status(Status),
-    /// Without an answer, for this reason; another attempt from the same start follows.
-    GivenUp(String),
-}
-
-/// How to solve.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// Ipopt's options, of either optimizer. MUMPS and [`Optimizer::Interior`] have their own way with
-    /// [`Options::fast_step_computation`]: MUMPS's steps are always refined, the interior solver's never.
-    pub ipopt: Options,
-    /// Who makes the iterations.
-    pub optimizer: Optimizer,
-    /// What factorises the linear systems.
-    pub linear_solver: LinearSolver,
-    /// Whether [`LinearSolver::Auto`] tries MUMPS too when the stage solver has used up its
-    /// iterations. Default true; false for one start of many.
-    pub retry_at_iteration_limit: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            ipopt: Options::default(),
-            optimizer: Optimizer::Ipopt,
-            linear_solver: LinearSolver::Auto,
-            retry_at_iteration_limit: true,
-        }
-    }
-}
+use crate::multiple_shooting::MultipleShooting;
+use crate::ocp_solution::OcpSolution;
+use crate::ocp_start::OcpStart;
+use crate::primal_dual_point::PrimalDualPoint;
+use crate::settings::{LinearSolverChoice, Optimizer, Settings};
 
 impl MultipleShooting<'_> {
     /// Solves the program from `start`. `on_iteration` sees every iteration and may stop the solve.
@@ -107,15 +21,15 @@ impl MultipleShooting<'_> {
     /// # Errors
     /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when the start does not fit,
     /// [`OcpError::Solve`] when Ipopt refuses the problem, an option or, without
-    /// [`LinearSolver::Auto`], the linear solver.
+    /// [`LinearSolverChoice::Auto`], the linear solver.
     pub fn solve(
         &mut self,
-        start: &Start,
+        start: &OcpStart,
         settings: &Settings,
         mut on_iteration: impl FnMut(&Iteration) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         let start = self.ipopt_start(start)?;
-        if settings.linear_solver == LinearSolver::Mumps {
+        if settings.linear_solver == LinearSolverChoice::Mumps {
             return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
         }
         let mut stage = StageKkt::new(&self.stage_dims()).stop_at_excess();
@@ -129,9 +43,9 @@ impl MultipleShooting<'_> {
         settings: &Settings,
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         let options = &settings.ipopt;
-        let retry = settings.linear_solver == LinearSolver::Auto;
+        let retry = settings.linear_solver == LinearSolverChoice::Auto;
         let mut given_up = Vec::new();
         let by_interior = match settings.optimizer {
             Optimizer::Interior => {
@@ -159,7 +73,7 @@ impl MultipleShooting<'_> {
         if retry && may_help {
             given_up.append(&mut solution.attempts);
             let again = self.solve_with_mumps(start, options, on_iteration)?;
-            solution = Solution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again };
+            solution = OcpSolution { linear_solver: UsedLinearSolver::MumpsAfterStage, ..again };
         }
         solution.attempts.splice(..0, given_up);
         Ok(solution)
@@ -174,16 +88,14 @@ impl MultipleShooting<'_> {
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
         given_up: &mut Vec<Attempt>,
-    ) -> Option<Solution> {
+    ) -> Option<OcpSolution> {
         let mut history = Vec::new();
         let options = Options { fast_step_computation: true, ..options.clone() };
         let record = recording(&mut history, on_iteration);
         match righting_interior::solve(self, &options, start, stage, record) {
             Ok(solution) => {
-                let curves_upwards =
-                    solution.reduced_hessian == Some(ReducedHessian::PositiveDefinite);
                 let used = (Optimizer::Interior, UsedLinearSolver::Stage);
-                Some(Solution { curves_upwards, ..self.solution(solution, history, used) })
+                Some(self.solution(solution, history, used))
             }
             Err(InteriorError { reason, iterations, time }) => {
                 given_up.push(self.given_up(Optimizer::Interior, &reason, iterations, time));
@@ -215,7 +127,7 @@ impl MultipleShooting<'_> {
         options: &Options,
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
-    ) -> Result<Solution, SolveError> {
+    ) -> Result<OcpSolution, SolveError> {
         let mut history = Vec::new();
         let record = recording(&mut history, on_iteration);
         let solution = righting_ipopt::solve_with(self, options, start, stage, record)?;
@@ -228,7 +140,7 @@ impl MultipleShooting<'_> {
         start: &righting_ipopt::Start,
         options: &Options,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         let mut history = Vec::new();
         // MUMPS is what is left when the stage solver's steps would not do: its own are checked.
         let options = Options { fast_step_computation: false, ..options.clone() };
@@ -243,8 +155,8 @@ impl MultipleShooting<'_> {
         solution: righting_ipopt::NlpSolution,
         history: Vec<Iteration>,
         (optimizer, linear_solver): (Optimizer, UsedLinearSolver),
-    ) -> Solution {
-        let point = Point {
+    ) -> OcpSolution {
+        let point = PrimalDualPoint {
             layout: self.layout(),
             z: solution.x,
             constraints: solution.multipliers.constraints,
@@ -260,7 +172,7 @@ impl MultipleShooting<'_> {
             iterations: history.last().map_or(0, |last| last.iteration),
             time: solution.timing.total,
         };
-        Solution {
+        OcpSolution {
             status: solution.status,
             objective: solution.objective,
             constraint_violation: solution.constraint_violation,
@@ -268,7 +180,7 @@ impl MultipleShooting<'_> {
             optimizer,
             linear_solver,
             attempts: vec![attempt],
-            curves_upwards: false,
+            reduced_hessian: solution.reduced_hessian,
             states,
             controls,
             point,
@@ -280,7 +192,7 @@ impl MultipleShooting<'_> {
     /// to Ipopt and has no slack.
     pub(crate) fn stage_dims(&self) -> StageDims {
         let (functions, dimensions) = (self.functions(), self.layout().dimensions());
-        let equalities = |bounds: &Interval| {
+        let equalities = |bounds: &ComponentBounds| {
             bounds.lower.iter().zip(&bounds.upper).filter(|(lower, upper)| lower == upper).count()
         };
         let path = equalities(&functions.path_bounds);
@@ -302,10 +214,10 @@ impl MultipleShooting<'_> {
         StageDims::new(nodes)
     }
 
-    fn ipopt_start(&self, start: &Start) -> Result<righting_ipopt::Start, OcpError> {
+    fn ipopt_start(&self, start: &OcpStart) -> Result<righting_ipopt::Start, OcpError> {
         match start {
-            Start::Guess(guess) => Ok(righting_ipopt::Start::at(self.decision_vector(guess)?)),
-            Start::Warm(point) if point.layout == self.layout() => Ok(righting_ipopt::Start {
+            OcpStart::Guess(guess) => Ok(righting_ipopt::Start::at(self.decision_vector(guess)?)),
+            OcpStart::Warm(point) if point.layout == self.layout() => Ok(righting_ipopt::Start {
                 x: point.z.clone(),
                 multipliers: Some(Multipliers {
                     constraints: point.constraints.clone(),
@@ -313,7 +225,7 @@ impl MultipleShooting<'_> {
                     upper: point.upper.clone(),
                 }),
             }),
-            Start::Warm(point) => Err(OcpError::Dimension {
+            OcpStart::Warm(point) => Err(OcpError::Dimension {
                 what: "warm start",
                 expected: self.layout().variables(),
                 found: point.z.len(),

@@ -2,7 +2,7 @@
 
 use righting_nlp::Problem;
 
-use crate::nlp::MultipleShooting;
+use crate::multiple_shooting::MultipleShooting;
 
 /// Places of the structural nonzeros of the KKT matrix
 ///
@@ -11,7 +11,7 @@ use crate::nlp::MultipleShooting;
 /// ⎣ ∇g    0  ⎦   constraints
 /// ```
 ///
-/// in the order of [`Layout`](crate::Layout), lower triangle.
+/// in the order of [`DecisionLayout`](crate::DecisionLayout), lower triangle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KktSparsity {
     /// Number of variables.

@@ -1,7 +1,9 @@
 use righting_nlp::TripletStructure;
 
-use crate::layout::Layout;
-use crate::stage::{MatrixOutput, NodeFunction, StageFunctions};
+use crate::decision_layout::DecisionLayout;
+use crate::matrix_output::MatrixOutput;
+use crate::node_function::NodeFunction;
+use crate::stage_functions::StageFunctions;
 
 /// Where the values of one matrix output belong in the slice of a step or node.
 #[derive(Debug, Clone, Default)]
@@ -89,7 +91,11 @@ impl JacobianStructure {
         self.steps * self.step_entries - self.state_entries
     }
 
-    pub(crate) fn triplets(&self, functions: &StageFunctions, layout: &Layout) -> TripletStructure {
+    pub(crate) fn triplets(
+        &self,
+        functions: &StageFunctions,
+        layout: &DecisionLayout,
+    ) -> TripletStructure {
         let mut triplets = Triplets::with_capacity(self.entries);
         let n = functions.states;
         let entries = &functions.step.jacobian.entries;
@@ -176,7 +182,11 @@ impl HessianStructure {
         (node * self.ordered.len() + slot).checked_sub(self.first_control_entry)
     }
 
-    pub(crate) fn triplets(&self, functions: &StageFunctions, layout: &Layout) -> TripletStructure {
+    pub(crate) fn triplets(
+        &self,
+        functions: &StageFunctions,
+        layout: &DecisionLayout,
+    ) -> TripletStructure {
         let n = functions.states;
         let mut triplets = Triplets::with_capacity(self.entries());
         for node in 0..=self.steps {

@@ -1,19 +1,19 @@
-use crate::nlp::MultipleShooting;
-use crate::point::Point;
-use crate::rk4::{NODE, STAGES, WEIGHT};
+use crate::multiple_shooting::MultipleShooting;
+use crate::primal_dual_point::PrimalDualPoint;
+use crate::rk4::RungeKutta4;
 use crate::samples::Samples;
 
 impl MultipleShooting<'_> {
     /// All states at the nodes 0…N and the controls of the steps 0…N−1 of a point on this grid. The
     /// passive states are integrated along the trajectory with the same steps.
-    pub fn trajectory(&self, point: &Point) -> (Samples, Samples) {
+    pub fn trajectory(&self, point: &PrimalDualPoint) -> (Samples, Samples) {
         let z = &point.z;
         let (functions, layout, steps) = (self.functions(), self.layout(), self.grid().steps());
         let mut states = Samples::new(functions.all_states);
         let mut controls = Samples::new(functions.controls);
         let mut state = self.full_initial_state().to_vec();
         states.push(&state);
-        let mut integrator = functions.full_ode.as_ref().map(FullStep::new);
+        let mut integrator = functions.full_ode.as_ref().map(FullIntegrator::new);
         for step in 0..steps {
             let control = &z[layout.control(step)];
             if let Some(integrator) = &mut integrator {
@@ -29,40 +29,34 @@ impl MultipleShooting<'_> {
     }
 }
 
-/// One integration step of all states.
-struct FullStep<'f> {
+/// Integrates all states.
+struct FullIntegrator<'f> {
     ode: &'f righting_symbolic::Function,
     workspace: righting_symbolic::Workspace,
+    method: RungeKutta4,
     point: Vec<f64>,
     rates: Vec<f64>,
-    next: Vec<f64>,
 }
 
-impl<'f> FullStep<'f> {
+impl<'f> FullIntegrator<'f> {
     fn new(ode: &'f righting_symbolic::Function) -> Self {
         let states = ode.input_ports()[0].len();
-        let zeros = vec![0.0; states];
         Self {
             ode,
             workspace: ode.workspace(),
-            point: zeros.clone(),
-            rates: zeros.clone(),
-            next: zeros,
+            method: RungeKutta4::new(states),
+            point: vec![0.0; states],
+            rates: vec![0.0; states],
         }
     }
 
     fn advance(&mut self, state: &mut [f64], control: &[f64], h: f64) {
-        self.next.copy_from_slice(state);
-        for stage in 0..STAGES {
-            for ((point, &start), &rate) in self.point.iter_mut().zip(&*state).zip(&self.rates) {
-                *point = if stage == 0 { start } else { start + NODE[stage] * h * rate };
-            }
-            let inputs = [self.point.as_slice(), control];
-            self.ode.evaluate(&mut self.workspace, &inputs, &mut [&mut self.rates]);
-            for (next, &rate) in self.next.iter_mut().zip(&self.rates) {
-                *next += WEIGHT[stage] * h * rate;
-            }
-        }
-        state.copy_from_slice(&self.next);
+        let Self { ode, workspace, method, point, rates } = self;
+        let next = method.step(h, state, |stage| {
+            stage.write_point(point);
+            ode.evaluate(workspace, &[point, control], &mut [rates]);
+            stage.set_rates(rates);
+        });
+        state.copy_from_slice(next);
     }
 }

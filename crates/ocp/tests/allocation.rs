@@ -13,8 +13,8 @@ fn an_iteration_allocates_nothing() {
     let problem = ControlProblem::new(3, 1, |x, u| vec![x[1], u[0] - x[0].sin(), x[0] * x[2]])
         .running_cost(|x, u| u[0] * u[0] + x[2] * x[2])
         .terminal_cost(|x| x[0].powi(2))
-        .path_constraints(Interval::new(vec![-1.0], vec![1.0]), |x| vec![x[0] * x[1]])
-        .terminal_constraints(Interval::new(vec![0.0], vec![0.0]), |x| vec![x[1] - x[2]]);
+        .path_constraints(ComponentBounds::new(vec![-1.0], vec![1.0]), |x| vec![x[0] * x[1]])
+        .terminal_constraints(ComponentBounds::new(vec![0.0], vec![0.0]), |x| vec![x[1] - x[2]]);
     let functions = StageFunctions::compile(&problem).unwrap();
     let grid = Grid::new(2.0, 50).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.1, 0.2, 0.3]).unwrap();

@@ -29,10 +29,12 @@ fn problem() -> ControlProblem {
     ControlProblem::new(5, 2, tangled)
         .running_cost(|x, u| u[0] * u[0] * x[1].exp() + u[1] * u[1] + x[3])
         .terminal_cost(|x| (x[0] - 1.0).powi(2) * x[2] + x[1] * 3.0)
-        .path_constraints(Interval::new(vec![-1.0, 0.0], vec![f64::INFINITY, 2.0]), |x| {
+        .path_constraints(ComponentBounds::new(vec![-1.0, 0.0], vec![f64::INFINITY, 2.0]), |x| {
             vec![x[0] * x[1] + x[2].minimum(x[3]), x[3].powi(3)]
         })
-        .terminal_constraints(Interval::new(vec![0.0], vec![0.0]), |x| vec![x[0] * x[2] - x[3]])
+        .terminal_constraints(ComponentBounds::new(vec![0.0], vec![0.0]), |x| {
+            vec![x[0] * x[2] - x[3]]
+        })
 }
 
 fn check(steps: usize) {

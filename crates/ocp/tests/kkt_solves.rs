@@ -4,18 +4,23 @@ use num_dual::DualNum;
 use righting_ocp::*;
 use righting_symbolic::Expr;
 
-fn both(problem: &ControlProblem, grid: Grid, initial: &[f64], guess: &Guess) -> [Solution; 2] {
+fn both(
+    problem: &ControlProblem,
+    grid: Grid,
+    initial: &[f64],
+    guess: &InitialGuess,
+) -> [OcpSolution; 2] {
     let functions = StageFunctions::compile(problem).unwrap();
-    [LinearSolver::Stage, LinearSolver::Mumps].map(|linear_solver| {
+    [LinearSolverChoice::Stage, LinearSolverChoice::Mumps].map(|linear_solver| {
         let mut program = MultipleShooting::new(&functions, grid, initial).unwrap();
         let settings = Settings { linear_solver, ..Settings::default() };
-        let start = Start::Guess(guess.clone());
+        let start = OcpStart::Guess(guess.clone());
         program.solve(&start, &settings, |_| Control::Continue).unwrap()
     })
 }
 
 #[track_caller]
-fn assert_same([stage, mumps]: &[Solution; 2]) {
+fn assert_same([stage, mumps]: &[OcpSolution; 2]) {
     assert_eq!(stage.linear_solver, UsedLinearSolver::Stage);
     assert_eq!(mumps.linear_solver, UsedLinearSolver::Mumps);
     assert_eq!((stage.status, mumps.status), (Status::Solved, Status::Solved));
@@ -44,15 +49,15 @@ fn cart_pole(x: &[Expr], u: &[Expr]) -> Vec<Expr> {
 #[test]
 fn a_swing_up_with_a_fixed_end() {
     let goal = [1.0, std::f64::consts::PI, 0.0, 0.0];
-    let end = Interval::new(goal.to_vec(), goal.to_vec());
+    let end = ComponentBounds::new(goal.to_vec(), goal.to_vec());
     let unbounded = f64::INFINITY;
     let problem = ControlProblem::new(4, 1, cart_pole)
         .running_cost(|_, u| u[0] * u[0] * 0.02)
         .terminal_constraints(end, |x| x.to_vec())
-        .state_bounds(Interval::symmetric(&[2.0, unbounded, unbounded, unbounded]))
-        .control_bounds(Interval::symmetric(&[20.0]));
+        .state_bounds(ComponentBounds::symmetric(&[2.0, unbounded, unbounded, unbounded]))
+        .control_bounds(ComponentBounds::symmetric(&[20.0]));
     for steps in [40, 200] {
-        let mut guess = Guess::constant(&[0.0; 4], 1, steps);
+        let mut guess = InitialGuess::constant(&[0.0; 4], 1, steps);
         for node in 0..=steps {
             let progress = node as f64 / steps as f64;
             let row = guess.states.row_mut(node);
@@ -68,17 +73,17 @@ fn a_swing_up_with_a_fixed_end() {
 #[test]
 fn a_detour_with_path_constraints() {
     let infinity = f64::INFINITY;
-    let path = Interval::new(vec![1.0, 0.0], vec![infinity, 0.0]);
+    let path = ComponentBounds::new(vec![1.0, 0.0], vec![infinity, 0.0]);
     let problem = ControlProblem::new(6, 3, |x, u| vec![x[3], x[4], x[5], u[0], u[1], u[2]])
         .running_cost(|_, u| u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
         .terminal_cost(|x| {
             ((x[0] - 2.0).powi(2) + (x[1] - 0.1).powi(2) + x[3].powi(2) + x[4].powi(2)) * 1e3
         })
         .path_constraints(path, |x| vec![x[0] * x[0] + x[1] * x[1], x[2] - x[0] * 0.1])
-        .control_bounds(Interval::symmetric(&[6.0, 6.0, 6.0]));
+        .control_bounds(ComponentBounds::symmetric(&[6.0, 6.0, 6.0]));
     let initial = [-2.0, 0.0, -0.2, 0.0, 0.0, 0.0];
     let steps = 60;
-    let mut guess = Guess::constant(&initial, 3, steps);
+    let mut guess = InitialGuess::constant(&initial, 3, steps);
     for node in 0..=steps {
         let angle = std::f64::consts::PI * (1.0 - node as f64 / steps as f64);
         let row = guess.states.row_mut(node);

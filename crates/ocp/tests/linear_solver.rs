@@ -21,16 +21,21 @@ fn problem(motor: f64) -> ControlProblem {
     let rest = vec![1.0, 0.0, 0.0, 0.0];
     ControlProblem::new(4, 2, cart)
         .running_cost(|_, u| u[0].powi(2) + u[1].powi(2))
-        .control_bounds(Interval::symmetric(&[8.0, motor]))
-        .path_constraints(Interval::new(vec![0.9], vec![f64::INFINITY]), |x| vec![x[1].cos()])
-        .terminal_constraints(Interval::new(rest.clone(), rest), |x| x.to_vec())
+        .control_bounds(ComponentBounds::symmetric(&[8.0, motor]))
+        .path_constraints(ComponentBounds::new(vec![0.9], vec![f64::INFINITY]), |x| {
+            vec![x[1].cos()]
+        })
+        .terminal_constraints(ComponentBounds::new(rest.clone(), rest), |x| x.to_vec())
 }
 
-fn start() -> Start {
-    Start::Guess(Guess::constant(&[0.0; 4], 2, STEPS))
+fn start() -> OcpStart {
+    OcpStart::Guess(InitialGuess::constant(&[0.0; 4], 2, STEPS))
 }
 
-fn solve(problem: &ControlProblem, linear_solver: LinearSolver) -> Result<Solution, OcpError> {
+fn solve(
+    problem: &ControlProblem,
+    linear_solver: LinearSolverChoice,
+) -> Result<OcpSolution, OcpError> {
     let functions = StageFunctions::compile(problem)?;
     let mut program = MultipleShooting::new(&functions, Grid::new(2.0, STEPS)?, &[0.0; 4])?;
     let settings = Settings { linear_solver, ..Settings::default() };
@@ -38,7 +43,7 @@ fn solve(problem: &ControlProblem, linear_solver: LinearSolver) -> Result<Soluti
 }
 
 /// All states, then all controls.
-fn motion(solution: &Solution) -> Vec<f64> {
+fn motion(solution: &OcpSolution) -> Vec<f64> {
     solution.states.rows().chain(solution.controls.rows()).flatten().copied().collect()
 }
 
@@ -48,8 +53,9 @@ fn assert_close(a: f64, b: f64, relative: f64) {
 
 #[test]
 fn both_solvers_find_the_same_optimum_and_say_who_they_are() {
-    let [mumps, stage, auto] = [LinearSolver::Mumps, LinearSolver::Stage, LinearSolver::Auto]
-        .map(|linear_solver| solve(&problem(3.0), linear_solver).unwrap());
+    let [mumps, stage, auto] =
+        [LinearSolverChoice::Mumps, LinearSolverChoice::Stage, LinearSolverChoice::Auto]
+            .map(|linear_solver| solve(&problem(3.0), linear_solver).unwrap());
     assert_eq!(mumps.linear_solver, UsedLinearSolver::Mumps);
     assert_eq!(stage.linear_solver, UsedLinearSolver::Stage);
     assert_eq!(auto.linear_solver, UsedLinearSolver::Stage);
@@ -66,17 +72,17 @@ fn both_solvers_find_the_same_optimum_and_say_who_they_are() {
 #[test]
 fn a_fixed_control_is_no_stage_structure_and_mumps_solves_it() {
     let fixed = problem(0.0);
-    let refused = solve(&fixed, LinearSolver::Stage).unwrap_err();
+    let refused = solve(&fixed, LinearSolverChoice::Stage).unwrap_err();
     assert!(matches!(refused, OcpError::Solve(_)), "{refused}");
-    let solution = solve(&fixed, LinearSolver::Auto).unwrap();
+    let solution = solve(&fixed, LinearSolverChoice::Auto).unwrap();
     assert_eq!(solution.status, Status::Solved);
     assert_eq!(solution.linear_solver, UsedLinearSolver::Mumps);
     assert!(solution.controls.rows().all(|row| row[1] == 0.0));
-    let expected = solve(&fixed, LinearSolver::Mumps).unwrap();
+    let expected = solve(&fixed, LinearSolverChoice::Mumps).unwrap();
     assert_eq!(motion(&solution), motion(&expected));
 
     // A motor of next to no strength is a control like any other, with nearly the same optimum.
-    let weak = solve(&problem(1e-6), LinearSolver::Auto).unwrap();
+    let weak = solve(&problem(1e-6), LinearSolverChoice::Auto).unwrap();
     assert_eq!(weak.linear_solver, UsedLinearSolver::Stage);
     assert_close(weak.objective, solution.objective, 1e-4);
 }
@@ -86,11 +92,11 @@ fn no_solver_finds_what_does_not_exist_and_both_are_asked() {
     // 8 N for 2 s never move the 3 kg by 30 m.
     let far = vec![30.0, 0.0, 0.0, 0.0];
     let impossible =
-        problem(3.0).terminal_constraints(Interval::new(far.clone(), far), |x| x.to_vec());
-    let solution = solve(&impossible, LinearSolver::Auto).unwrap();
+        problem(3.0).terminal_constraints(ComponentBounds::new(far.clone(), far), |x| x.to_vec());
+    let solution = solve(&impossible, LinearSolverChoice::Auto).unwrap();
     assert_eq!(solution.linear_solver, UsedLinearSolver::MumpsAfterStage);
     assert!(!solution.status.is_success());
-    assert_eq!(solution.status, solve(&impossible, LinearSolver::Mumps).unwrap().status);
+    assert_eq!(solution.status, solve(&impossible, LinearSolverChoice::Mumps).unwrap().status);
 }
 
 /// A solve that was stopped is not begun again; one that ran out of iterations is, unless it is one

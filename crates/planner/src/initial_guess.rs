@@ -5,7 +5,7 @@ mod joint_loops;
 use std::f64::consts::PI;
 
 use righting_multibody::{Quaternion, State};
-use righting_ocp::Guess;
+use righting_ocp::InitialGuess;
 use righting_results::trajectory::Trajectory;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::{Maneuver, Scenario};
@@ -31,14 +31,14 @@ pub(crate) struct InitialGuesses<'a> {
 
 impl InitialGuesses<'_> {
     /// The state held at the start, no control: the paper's guess.
-    pub(crate) fn constant(&self) -> Guess {
-        Guess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
+    pub(crate) fn constant(&self) -> InitialGuess {
+        InitialGuess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
     }
 
     /// Low-discrepancy guesses `first`, `first + 1`, … without end; each is the same every time. Every
     /// joint moves smoothly, rest to rest, to somewhere within its limits, and some of the way back. The
     /// ends are points of a Halton sequence. The base's attitude is held.
-    pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = Guess> {
+    pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = InitialGuess> {
         let joints = self.scenario.system().joint_count();
         // Two points a guess: how far each joint goes, and how much of it stays.
         let mut points = Halton::starting_after(joints, 2 * first);
@@ -47,8 +47,8 @@ impl InitialGuesses<'_> {
 
     /// The `count` of the first `screened` low-discrepancy guesses after which the base turns slowest,
     /// simulated.
-    pub(crate) fn least_final_rate(&self, screened: usize, count: usize) -> Vec<Guess> {
-        let mut simulated: Vec<(f64, Guess)> = self
+    pub(crate) fn least_final_rate(&self, screened: usize, count: usize) -> Vec<InitialGuess> {
+        let mut simulated: Vec<(f64, InitialGuess)> = self
             .low_discrepancy(0)
             .take(screened)
             .map(|guess| self.simulated(guess))
@@ -62,7 +62,7 @@ impl InitialGuesses<'_> {
     }
 
     /// The motion that the guess's controls make: its base turns as momentum has it.
-    pub(crate) fn simulated(&self, mut guess: Guess) -> Guess {
+    pub(crate) fn simulated(&self, mut guess: InitialGuess) -> InitialGuess {
         let step_s = self.scenario.horizon().duration_s / self.steps as f64;
         let mut x = self.initial.to_vec();
         for step in 0..self.steps {
@@ -84,7 +84,7 @@ impl InitialGuesses<'_> {
 
     /// The motion of an earlier plan of the same arm, or its image where that ends nearer to the
     /// target, stretched to this horizon and shifted to this maneuver's first posture.
-    pub(crate) fn along_trajectory(&self, plan: &Trajectory) -> Guess {
+    pub(crate) fn along_trajectory(&self, plan: &Trajectory) -> InitialGuess {
         let mut guess = self.constant();
         let image = self.nearest_image(plan);
         let plan = image.as_ref().unwrap_or(plan);
@@ -141,7 +141,7 @@ impl InitialGuesses<'_> {
         images.into_iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
     }
 
-    fn with_joints_to(&self, reach: &[f64], back: &[f64]) -> Guess {
+    fn with_joints_to(&self, reach: &[f64], back: &[f64]) -> InitialGuess {
         let duration_s = self.scenario.horizon().duration_s;
         let limits = &self.scenario.system().joint_limits;
         let motions = limits.iter().enumerate().map(|(joint, limits)| {
@@ -158,7 +158,7 @@ impl InitialGuesses<'_> {
     }
 
     /// The joints move so, and the base's attitude is held.
-    fn moved(&self, motions: &[Motion]) -> Guess {
+    fn moved(&self, motions: &[Motion]) -> InitialGuess {
         let mut guess = self.constant();
         for (joint, motion) in motions.iter().enumerate() {
             let (angle, rate) =

@@ -42,7 +42,7 @@ pub mod sparsity;
 mod symmetry;
 
 pub use formulation::FormulatedManeuver;
-pub use library::Library;
+pub use library::PlanLibrary;
 pub use planned::Planned;
 pub use planner::{PlanError, Planner};
 pub use reach::{Reach, ReachError, ReachSettings, reach};

@@ -31,7 +31,7 @@ use serde::Deserialize;
 
 /// The solved maneuvers of a folder. Only their `solution.json` have been read.
 #[derive(Clone, Debug)]
-pub struct Library {
+pub struct PlanLibrary {
     folder: PathBuf,
     entries: Vec<Entry>,
     skipped: Vec<Skipped>,
@@ -84,7 +84,7 @@ struct Verdict {
     passed: bool,
 }
 
-impl Library {
+impl PlanLibrary {
     /// Looks into every subfolder of `folder`, hidden ones left out. One that does not hold a
     /// verified plan is skipped.
     ///
@@ -163,7 +163,7 @@ impl Library {
     }
 }
 
-impl Library {
+impl PlanLibrary {
     /// What a reader of a plan should know of the library's part in it.
     pub(crate) fn note(&self, nearest: Option<&Neighbor>) -> String {
         let shown = self.folder.display();

@@ -6,8 +6,8 @@ use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
-    AttemptRecord, Interval, IterationRecord, Node, Solution, Status, Terminal, Timing, Trajectory,
-    UsedOptimizer, Verification, Versions,
+    AttemptRecord, ControlInterval, IterationRecord, Node, Solution, Status, Terminal, Timing,
+    Trajectory, UsedOptimizer, Verification, Versions,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
@@ -104,7 +104,7 @@ fn timing(found: &Found, verify: Duration) -> Timing {
     }
 }
 
-fn versions(solution: &righting_ocp::Solution, program: &str) -> Versions {
+fn versions(solution: &righting_ocp::OcpSolution, program: &str) -> Versions {
     let found = righting_ipopt::versions();
     let mumps = found.libraries.iter().find(|library| library.name == "MUMPS");
     let mumps = mumps.and_then(|library| library.version.as_deref()).unwrap_or("of any version");
@@ -124,7 +124,7 @@ fn versions(solution: &righting_ocp::Solution, program: &str) -> Versions {
 fn trajectory(
     scenario: &Scenario,
     coordinates: &Coordinates,
-    solution: &righting_ocp::Solution,
+    solution: &righting_ocp::OcpSolution,
 ) -> Result<Trajectory, ShapeError> {
     let system = &scenario.system().model;
     let steps = scenario.horizon().steps;
@@ -154,7 +154,7 @@ fn trajectory(
             joint_rates_rad_s: state.joint_rates,
         });
         if k < steps {
-            intervals.push(Interval {
+            intervals.push(ControlInterval {
                 joint_accelerations_rad_s2: accelerations.to_vec(),
                 joint_torques_n_m: torques,
             });

@@ -10,7 +10,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::Scenario;
 use righting_scenario::error::ShapeError;
 
-use crate::library::Library;
+use crate::library::PlanLibrary;
 use crate::planned::{Ending, Planned};
 use crate::search::Search;
 
@@ -40,7 +40,7 @@ use crate::search::Search;
 pub struct Planner<'a> {
     threads: NonZeroUsize,
     earlier: Option<&'a Trajectory>,
-    library: Option<&'a mut Library>,
+    library: Option<&'a mut PlanLibrary>,
     time_limit: Option<Duration>,
     program: String,
 }
@@ -77,7 +77,7 @@ impl<'a> Planner<'a> {
 
     /// Starts from the nearest plan of a library too, unless there is a [`warm_start`](Self::warm_start).
     /// A note of the solution says which.
-    pub fn library(mut self, library: &'a mut Library) -> Self {
+    pub fn library(mut self, library: &'a mut PlanLibrary) -> Self {
         self.library = Some(library);
         self
     }

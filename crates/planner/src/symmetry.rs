@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use righting_multibody::{Quaternion, System};
-use righting_results::trajectory::{Interval, Node, Trajectory};
+use righting_results::trajectory::{ControlInterval, Node, Trajectory};
 use righting_scenario::halton::Halton;
 use righting_scenario::system_description::SystemDescription;
 
@@ -114,7 +114,7 @@ impl Mirror {
                 ..*node
             }
         });
-        let intervals = motion.intervals().iter().map(|interval| Interval {
+        let intervals = motion.intervals().iter().map(|interval| ControlInterval {
             joint_accelerations_rad_s2: self.joints(&interval.joint_accelerations_rad_s2),
             joint_torques_n_m: self.joints(&interval.joint_torques_n_m),
         });
@@ -152,7 +152,7 @@ pub(crate) fn reversed(motion: &Trajectory) -> Trajectory {
     joined(nodes.collect(), motion.intervals().iter().rev().cloned().collect())
 }
 
-fn joined(nodes: Vec<Node>, intervals: Vec<Interval>) -> Trajectory {
+fn joined(nodes: Vec<Node>, intervals: Vec<ControlInterval>) -> Trajectory {
     Trajectory::new(nodes, intervals).expect("as many of each as there were")
 }
 
@@ -230,7 +230,7 @@ mod tests {
             joint_rates_rad_s: vec![0.5],
             power_w: 1.0,
         };
-        let interval = |u: f64| Interval {
+        let interval = |u: f64| ControlInterval {
             joint_accelerations_rad_s2: vec![u],
             joint_torques_n_m: vec![2.0 * u],
         };

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use righting_planner::Library;
+use righting_planner::PlanLibrary;
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::{Scenario, file};
 use righting_test_support::{shipped, solution_of, true_slew, varied};
@@ -42,7 +42,7 @@ impl Shelf {
 
     /// Name and distance of the entry chosen for a variant of the scenario.
     fn nearest(&self, change: impl FnOnce(&mut file::Scenario)) -> (String, f64) {
-        let mut library = Library::read(self.path()).unwrap();
+        let mut library = PlanLibrary::read(self.path()).unwrap();
         let near = library.nearest(&varied(&self.scenario, change)).unwrap();
         assert_eq!(near.trajectory, self.trajectory);
         (near.name, near.distance)
@@ -128,7 +128,7 @@ fn what_is_no_verified_plan_of_the_arm_is_skipped_by_name() {
     fs::write(shelf.path().join("README"), "a library").unwrap();
     fs::create_dir(shelf.path().join(".hidden")).unwrap();
 
-    let mut library = Library::read(shelf.path()).unwrap();
+    let mut library = PlanLibrary::read(shelf.path()).unwrap();
     let asked = varied(&shelf.scenario, turned_by(20.0));
     assert_eq!(library.nearest(&asked).unwrap().name, "good");
     let mut skipped: Vec<String> = library.skipped().iter().map(ToString::to_string).collect();
@@ -147,12 +147,12 @@ fn what_is_no_verified_plan_of_the_arm_is_skipped_by_name() {
 fn another_type_of_maneuver_is_no_start_and_no_fault() {
     let shelf = Shelf::new();
     shelf.add("slew", |_| {});
-    let mut library = Library::read(shelf.path()).unwrap();
+    let mut library = PlanLibrary::read(shelf.path()).unwrap();
     assert_eq!(library.nearest(&shipped("detumble_4dof")), None);
     assert!(library.skipped().is_empty());
     assert_eq!(library.len(), 1);
     let empty = tempfile::tempdir().unwrap();
-    let mut library = Library::read(empty.path()).unwrap();
+    let mut library = PlanLibrary::read(empty.path()).unwrap();
     assert!(library.is_empty() && library.nearest(&shelf.scenario).is_none());
-    assert!(Library::read(&empty.path().join("absent")).is_err());
+    assert!(PlanLibrary::read(&empty.path().join("absent")).is_err());
 }

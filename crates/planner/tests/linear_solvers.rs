@@ -2,14 +2,14 @@
 
 use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
-use righting_scenario::file::{Formulation, Guess, LinearSolver, NamedGuess};
+use righting_scenario::file::{Formulation, Guess, LinearSolverChoice, NamedGuess};
 use righting_test_support::{shipped, varied};
 
 fn planned(
     name: &str,
     steps: usize,
     formulation: Formulation,
-    linear_solver: LinearSolver,
+    linear_solver: LinearSolverChoice,
 ) -> Planned {
     let scenario = varied(&shipped(name), |file| {
         file.horizon.steps = steps as f64;
@@ -21,7 +21,7 @@ fn planned(
 }
 
 fn assert_same_optimum(name: &str, steps: usize, formulation: Formulation) {
-    let [mumps, stage] = [LinearSolver::Mumps, LinearSolver::Stage]
+    let [mumps, stage] = [LinearSolverChoice::Mumps, LinearSolverChoice::Stage]
         .map(|linear_solver| planned(name, steps, formulation, linear_solver));
     let case = format!("{name}, {formulation:?}, {steps} steps");
     assert!(mumps.solution.versions.linear_solver.starts_with("mumps "));

@@ -2,7 +2,7 @@
 
 use std::io::{Cursor, Write};
 
-use righting_results::{Interval, Node, Trajectory};
+use righting_results::{ControlInterval, Node, Trajectory};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, result::ZipError};
 
@@ -31,7 +31,7 @@ pub fn npz(trajectory: &Trajectory) -> Result<Vec<u8>, ReportError> {
         width,
         values: nodes.iter().flat_map(row).collect(),
     };
-    let of_intervals = |name, row: &dyn Fn(&Interval) -> Vec<f64>| Array {
+    let of_intervals = |name, row: &dyn Fn(&ControlInterval) -> Vec<f64>| Array {
         name,
         rows: intervals.len(),
         width: Some(joints),

@@ -24,7 +24,7 @@ pub use outcome::objective;
 pub use solution::{
     AttemptRecord, IterationRecord, Solution, Status, Terminal, Timing, UsedOptimizer, Versions,
 };
-pub use trajectory::{Interval, Node, Trajectory};
+pub use trajectory::{ControlInterval, Node, Trajectory};
 pub use verification::{Check, Sense, Verification};
 
 /// Name of the file of the trajectory in a result folder.

@@ -45,7 +45,7 @@ impl Node {
 
 /// What acts between node k and node k + 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Interval {
+pub struct ControlInterval {
     /// Joint accelerations, held over the interval: the control.
     pub joint_accelerations_rad_s2: Vec<f64>,
     /// Joint torques at the interval's first node.
@@ -56,7 +56,7 @@ pub struct Interval {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     nodes: Vec<Node>,
-    intervals: Vec<Interval>,
+    intervals: Vec<ControlInterval>,
 }
 
 impl Trajectory {
@@ -65,7 +65,7 @@ impl Trajectory {
     /// # Errors
     /// There must be one more node than intervals, at least one interval, and the same number of
     /// joints everywhere.
-    pub fn new(nodes: Vec<Node>, intervals: Vec<Interval>) -> Result<Self, ShapeError> {
+    pub fn new(nodes: Vec<Node>, intervals: Vec<ControlInterval>) -> Result<Self, ShapeError> {
         let require = |what: &dyn Fn() -> String, found: usize, needed: usize| {
             if found == needed { Ok(()) } else { Err(ShapeError { what: what(), found, needed }) }
         };
@@ -92,7 +92,7 @@ impl Trajectory {
     }
 
     /// The N intervals; interval k lies between nodes k and k + 1.
-    pub fn intervals(&self) -> &[Interval] {
+    pub fn intervals(&self) -> &[ControlInterval] {
         &self.intervals
     }
 
@@ -139,8 +139,8 @@ mod tests {
         }
     }
 
-    fn interval(joints: usize) -> Interval {
-        Interval {
+    fn interval(joints: usize) -> ControlInterval {
+        ControlInterval {
             joint_accelerations_rad_s2: vec![0.0; joints],
             joint_torques_n_m: vec![0.0; joints],
         }

@@ -8,7 +8,7 @@ use csv::{ReaderBuilder, StringRecord};
 use righting_scenario::error::{Error, Mismatch};
 use righting_scenario::file_io;
 
-use crate::trajectory::{Interval, Node, Trajectory};
+use crate::trajectory::{ControlInterval, Node, Trajectory};
 
 /// Columns before the joint columns.
 const BASE_COLUMNS: [&str; 14] = [
@@ -129,7 +129,7 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
         if last {
             row.empty(2 * joints)?;
         } else {
-            intervals.push(Interval {
+            intervals.push(ControlInterval {
                 joint_accelerations_rad_s2: row.several(joints)?,
                 joint_torques_n_m: row.several(joints)?,
             });

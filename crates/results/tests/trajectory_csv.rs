@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use righting_results::{Interval, Node, Trajectory};
+use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::Error;
 
 /// A trajectory of awkward numbers: every bit pattern of a finite double is fair.
@@ -32,7 +32,7 @@ fn awkward(joints: usize, steps: usize) -> Trajectory {
         })
         .collect();
     let intervals = (0..steps)
-        .map(|_| Interval {
+        .map(|_| ControlInterval {
             joint_accelerations_rad_s2: several(joints),
             joint_torques_n_m: several(joints),
         })

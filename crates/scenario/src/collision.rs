@@ -7,7 +7,7 @@ use righting_multibody::Kinematics;
 
 use crate::error::Error;
 use crate::halton::Halton;
-use crate::json::Place;
+use crate::json::Location;
 use crate::system_description::SystemDescription;
 
 /// How far inside its clearance a maneuver may start: rounding only.
@@ -102,7 +102,7 @@ impl CollisionModel {
         &self,
         system: &SystemDescription,
         joint_angles_rad: &[f64],
-        place: &Place,
+        place: &Location,
     ) -> Result<(), Error> {
         let posture = system.model.kinematics(joint_angles_rad);
         let collision = self
@@ -135,7 +135,7 @@ impl CollisionModel {
         &self,
         system: &SystemDescription,
         joint_angles_rad: &[f64],
-        links: &Place,
+        links: &Location,
     ) -> Result<(), Error> {
         let model = &system.model;
         let exempt: Vec<usize> = (0..system.joint_count())

@@ -168,7 +168,7 @@ pub struct Solver {
     pub optimizer: Option<Optimizer>,
     /// Linear solver inside the optimizer; `auto` by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub linear_solver: Option<LinearSolver>,
+    pub linear_solver: Option<LinearSolverChoice>,
     /// Largest number of iterations; 3000 by default.
     #[serde(
         default,
@@ -249,7 +249,7 @@ pub enum Optimizer {
 /// Linear solver inside the optimizer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum LinearSolver {
+pub enum LinearSolverChoice {
     /// The faster of those that work for the problem.
     #[default]
     Auto,

@@ -5,7 +5,7 @@ use righting_multibody::{Quaternion, State};
 
 use crate::error::Error;
 use crate::file;
-use crate::json::{Bounds, Number, Place};
+use crate::json::{Bounds, Location, Number};
 use crate::system_description::{JointLimits, SystemDescription, unit_quaternion};
 
 const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3600.0, 3600.0);
@@ -32,7 +32,7 @@ impl Initial {
     pub(crate) fn from_file(
         initial: &file::Initial,
         system: &SystemDescription,
-        place: &Place,
+        place: &Location,
     ) -> Result<Self, Error> {
         let limits = &system.joint_limits;
         let attitude = match initial.attitude {
@@ -74,7 +74,7 @@ impl Initial {
 fn joint_angles(
     initial: &file::Initial,
     limits: &[JointLimits],
-    place: &Place,
+    place: &Location,
 ) -> Result<Vec<f64>, Error> {
     require_one_a_joint(&initial.joint_angles_deg, limits, place)?;
     let checked = initial.joint_angles_deg.iter().zip(limits).enumerate();
@@ -96,7 +96,7 @@ fn joint_angles(
 fn joint_rates(
     initial: &file::Initial,
     limits: &[JointLimits],
-    place: &Place,
+    place: &Location,
 ) -> Result<Vec<f64>, Error> {
     let Some(rates_deg_s) = &initial.joint_rates_deg_s else {
         return Ok(vec![0.0; limits.len()]);
@@ -119,7 +119,11 @@ fn joint_rates(
         .collect()
 }
 
-fn require_one_a_joint(values: &[f64], limits: &[JointLimits], place: &Place) -> Result<(), Error> {
+fn require_one_a_joint(
+    values: &[f64],
+    limits: &[JointLimits],
+    place: &Location,
+) -> Result<(), Error> {
     if values.len() == limits.len() {
         return Ok(());
     }

@@ -2,15 +2,15 @@
 //!
 //! Text becomes a tree in which no key appears twice (`unique`), and the tree becomes typed values
 //! through a reader whose error is a [`FieldError`] (`decode`). What the types cannot say is then
-//! checked value by value through a [`Place`].
+//! checked value by value through a [`Location`].
 
 mod decode;
 mod kind;
-mod place;
+mod location;
 mod unique;
 
 pub use kind::FileKind;
-pub use place::{Bounds, Number, Place};
+pub use location::{Bounds, Location, Number};
 
 use std::path::{Path, PathBuf};
 

@@ -9,9 +9,11 @@ use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
 use crate::error::Error;
-use crate::file::{self, Formulation, Guess, LinearSolver, NamedGuess, Optimizer, SystemReference};
+use crate::file::{
+    self, Formulation, Guess, LinearSolverChoice, NamedGuess, Optimizer, SystemReference,
+};
 use crate::initial::Initial;
-use crate::json::{Bounds, Document, FileKind, Number, Place, shown};
+use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
 use crate::system_description::{SystemDescription, read_system};
 
 /// The most intervals a horizon may have.
@@ -105,7 +107,7 @@ pub struct SolverSettings {
     /// Who makes the iterations.
     pub optimizer: Optimizer,
     /// Linear solver inside the optimizer.
-    pub linear_solver: LinearSolver,
+    pub linear_solver: LinearSolverChoice,
     /// Largest number of iterations.
     pub max_iterations: usize,
     /// Convergence tolerance.
@@ -140,7 +142,7 @@ impl Scenario {
     /// # Errors
     /// [`Error::Field`] for a field that is wrong; those of reading the system.
     pub fn from_file(scenario: file::Scenario, file: &Path) -> Result<Self, Error> {
-        Self::from_file_at(scenario, file, &Place::root(file))
+        Self::from_file_at(scenario, file, &Location::root(file))
     }
 
     /// [`from_file`](Self::from_file) for a scenario that stands at `place` in `file`.
@@ -150,7 +152,7 @@ impl Scenario {
     pub fn from_file_at(
         mut scenario: file::Scenario,
         file: &Path,
-        place: &Place,
+        place: &Location,
     ) -> Result<Self, Error> {
         if scenario.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
@@ -274,8 +276,8 @@ impl file::Scenario {
 fn resolve_system(
     reference: &mut SystemReference,
     file: &Path,
-    place: &Place,
-) -> Result<(SystemDescription, Place), Error> {
+    place: &Location,
+) -> Result<(SystemDescription, Location), Error> {
     match reference {
         SystemReference::Inline(system) => {
             Ok((SystemDescription::from_file(system, place)?, place.key("links")))
@@ -292,7 +294,7 @@ fn resolve_system(
                     format_args!("the path of a system file ({unreadable})"),
                 ),
             })?;
-            let place = Place::root(&system_file);
+            let place = Location::root(&system_file);
             let description = SystemDescription::from_file(&system, &place)?;
             *reference = SystemReference::Inline(Box::new(system));
             Ok((description, place.key("links")))
@@ -303,7 +305,7 @@ fn resolve_system(
 fn maneuver(
     maneuver: &file::Maneuver,
     initial: &Initial,
-    place: &Place,
+    place: &Location,
 ) -> Result<Maneuver, Error> {
     let (axis_place, angle_place) = (place.key("axis"), place.key("angle_deg"));
     match maneuver.kind {
@@ -339,7 +341,7 @@ fn check_momentum(
     initial: &Initial,
     maneuver: &Maneuver,
     system: &SystemDescription,
-    place: &Place,
+    place: &Location,
 ) -> Result<(), Error> {
     let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
     let arm_at_rest = vec![0.0; system.joint_count()];
@@ -370,14 +372,18 @@ fn check_momentum(
     }
 }
 
-fn horizon(horizon: &file::Horizon, place: &Place) -> Result<Horizon, Error> {
+fn horizon(horizon: &file::Horizon, place: &Location) -> Result<Horizon, Error> {
     Ok(Horizon {
         duration_s: place.key("duration_s").within(horizon.duration_s, DURATION_S)?,
         steps: place.key("steps").within(horizon.steps, STEPS)? as usize,
     })
 }
 
-fn weights(weights: &file::Weights, maneuver: &Maneuver, place: &Place) -> Result<Weights, Error> {
+fn weights(
+    weights: &file::Weights,
+    maneuver: &Maneuver,
+    place: &Location,
+) -> Result<Weights, Error> {
     let defaults = Weights::defaults(maneuver);
     let weight = |name: &str, given: Option<f64>, default: f64| match given {
         Some(value) => place.key(name).within(value, WEIGHT),
@@ -425,7 +431,7 @@ impl Weights {
     }
 }
 
-fn solver(solver: &file::Solver, place: &Place) -> Result<SolverSettings, Error> {
+fn solver(solver: &file::Solver, place: &Location) -> Result<SolverSettings, Error> {
     let max_iterations = solver.max_iterations.unwrap_or(3000.0);
     let tolerance = solver.tolerance.unwrap_or(1e-8);
     if let Some(Guess::Starts(random)) = solver.guess

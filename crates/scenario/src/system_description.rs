@@ -8,7 +8,7 @@ use righting_multibody::{ModelError, Part, Quaternion, System};
 
 use crate::error::Error;
 use crate::file;
-use crate::json::{Bounds, Document, FileKind, Number, Place};
+use crate::json::{Bounds, Document, FileKind, Location, Number};
 use crate::scenario::Scenario;
 
 /// The most joints an arm may have.
@@ -59,7 +59,7 @@ impl SystemDescription {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        Self::from_file(&read_system(file)?, &Place::root(file))
+        Self::from_file(&read_system(file)?, &Location::root(file))
     }
 
     /// Number of joints j, which is also the number of links.
@@ -68,7 +68,7 @@ impl SystemDescription {
     }
 
     /// Checks a system that was read from `place`.
-    pub(crate) fn from_file(system: &file::System, place: &Place) -> Result<Self, Error> {
+    pub(crate) fn from_file(system: &file::System, place: &Location) -> Result<Self, Error> {
         if system.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
@@ -115,7 +115,7 @@ pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> 
     if document.has_key("system") {
         Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
     } else {
-        SystemDescription::from_file(&document.decode()?, &Place::root(file))
+        SystemDescription::from_file(&document.decode()?, &Location::root(file))
     }
 }
 
@@ -125,7 +125,7 @@ pub(crate) fn read_system(file: &Path) -> Result<file::System, Error> {
 }
 
 /// A unit quaternion w, x, y, z, if it is one to within a millionth.
-pub(crate) fn unit_quaternion(wxyz: [f64; 4], place: &Place) -> Result<Quaternion<f64>, Error> {
+pub(crate) fn unit_quaternion(wxyz: [f64; 4], place: &Location) -> Result<Quaternion<f64>, Error> {
     place.all_within(wxyz, Bounds::Between(-2.0, 2.0))?;
     let [w, x, y, z] = wxyz;
     let quaternion = Quaternion::from_array(wxyz);
@@ -137,7 +137,7 @@ pub(crate) fn unit_quaternion(wxyz: [f64; 4], place: &Place) -> Result<Quaternio
     Ok(quaternion.normalized())
 }
 
-fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Error> {
+fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, f64), Error> {
     let mass_kg = place.key("mass_kg").within(base.mass_kg, BODY_MASS_KG)?;
     let cube_place = place.key("cube_side_m");
     let radius_place = place.key("keep_out_radius_m");
@@ -169,7 +169,7 @@ fn base(base: &file::Base, place: &Place) -> Result<(multibody::Base, f64), Erro
     }
 }
 
-fn mount(mount: &file::Mount, place: &Place) -> Result<multibody::Mount, Error> {
+fn mount(mount: &file::Mount, place: &Location) -> Result<multibody::Mount, Error> {
     let position_m = vector(mount.position_m, &place.key("position_m"))?;
     let rotation = match mount.rotation {
         Some(wxyz) => {
@@ -181,7 +181,7 @@ fn mount(mount: &file::Mount, place: &Place) -> Result<multibody::Mount, Error> 
     Ok(multibody::Mount { position_m, rotation })
 }
 
-fn link(row: &file::Link, place: &Place) -> Result<multibody::Link, Error> {
+fn link(row: &file::Link, place: &Location) -> Result<multibody::Link, Error> {
     let angle = |name: &str, value: f64| place.key(name).within(value, DH_ANGLE_DEG);
     let length = |name: &str, value: f64| place.key(name).within(value, LENGTH_M);
     Ok(multibody::Link {
@@ -201,7 +201,7 @@ fn link(row: &file::Link, place: &Place) -> Result<multibody::Link, Error> {
     })
 }
 
-fn limits(row: &file::Link, place: &Place) -> Result<JointLimits, Error> {
+fn limits(row: &file::Link, place: &Location) -> Result<JointLimits, Error> {
     let angle = |name: &str, value: Option<f64>, none: f64| match value {
         Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
         None => Ok(none),
@@ -225,7 +225,7 @@ fn limits(row: &file::Link, place: &Place) -> Result<JointLimits, Error> {
     })
 }
 
-fn payload(payload: &file::Payload, place: &Place) -> Result<multibody::Payload, Error> {
+fn payload(payload: &file::Payload, place: &Location) -> Result<multibody::Payload, Error> {
     Ok(multibody::Payload {
         mass_kg: place.key("mass_kg").within(payload.mass_kg, BODY_MASS_KG)?,
         inertia_kg_m2: payload
@@ -235,11 +235,11 @@ fn payload(payload: &file::Payload, place: &Place) -> Result<multibody::Payload,
     })
 }
 
-fn vector(values: [f64; 3], place: &Place) -> Result<Vector3<f64>, Error> {
+fn vector(values: [f64; 3], place: &Location) -> Result<Vector3<f64>, Error> {
     place.all_within(values, LENGTH_M).map(Vector3::from)
 }
 
-fn matrix(rows: &[[f64; 3]; 3], place: &Place) -> Result<Matrix3<f64>, Error> {
+fn matrix(rows: &[[f64; 3]; 3], place: &Location) -> Result<Matrix3<f64>, Error> {
     for (index, row) in rows.iter().enumerate() {
         place.index(index).all_within(*row, INERTIA_KG_M2)?;
     }
@@ -247,7 +247,7 @@ fn matrix(rows: &[[f64; 3]; 3], place: &Place) -> Result<Matrix3<f64>, Error> {
 }
 
 /// Says where in the file a model's fault lies.
-fn refuse_model(error: ModelError, place: &Place) -> Error {
+fn refuse_model(error: ModelError, place: &Location) -> Error {
     let at = |part: Part| match part {
         Part::Base => place.key("base"),
         Part::Mount => place.key("mount"),

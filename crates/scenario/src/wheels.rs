@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::json::{Bounds, Document, FileKind, Place};
+use crate::json::{Bounds, Document, FileKind, Location};
 
 /// The most wheels an array may have.
 pub const MAX_WHEELS: usize = 16;
@@ -88,7 +88,7 @@ impl WheelArray {
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
         let rows: WheelFile = Document::read(file, FileKind::Wheels)?.decode()?;
-        let place = Place::root(file).key("wheels");
+        let place = Location::root(file).key("wheels");
         if !(1..=MAX_WHEELS).contains(&rows.wheels.len()) {
             let allowed = format!("an array of 1 to {MAX_WHEELS} wheels");
             return Err(place.refuse(format!("{} wheels", rows.wheels.len()), allowed));

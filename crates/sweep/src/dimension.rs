@@ -1,7 +1,7 @@
 //! One dimension of a sweep, checked: fields that change together.
 
 use righting_scenario::Error;
-use righting_scenario::json::{Place, shown};
+use righting_scenario::json::{Location, shown};
 use serde_json::{Value, json};
 
 use crate::field_path::FieldPath;
@@ -37,7 +37,7 @@ pub(crate) struct Variation {
 }
 
 impl Dimension {
-    pub fn from_file(dimension: &file::Dimension, place: &Place) -> Result<Self, Error> {
+    pub fn from_file(dimension: &file::Dimension, place: &Location) -> Result<Self, Error> {
         let Some(zipped) = &dimension.zip else {
             return Ok(Self { variations: vec![Variation::from_file(dimension, place)?] });
         };
@@ -78,7 +78,7 @@ impl Dimension {
 }
 
 impl Variation {
-    fn from_file(dimension: &file::Dimension, place: &Place) -> Result<Self, Error> {
+    fn from_file(dimension: &file::Dimension, place: &Location) -> Result<Self, Error> {
         let field_place = place.key("field");
         let field = dimension.field.as_deref();
         let field =

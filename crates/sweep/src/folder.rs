@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use righting_scenario::file_io;
-use righting_scenario::json::{Document, FileKind, Place};
+use righting_scenario::json::{Document, FileKind, Location};
 use serde::{Deserialize, Serialize};
 
 use crate::case::CaseId;
@@ -83,7 +83,7 @@ impl SweepFolder {
         let path = self.path.join(MANIFEST);
         let document = Document::read(&path, FileKind::PlannedSweep)?;
         let manifest: Manifest = document.decode()?;
-        let place = Place::root(&path);
+        let place = Location::root(&path);
         if manifest.schema != SCHEMA {
             let found = format!("\"{}\"", manifest.schema);
             return Err(place.key("schema").refuse(found, format!("\"{SCHEMA}\"")).into());

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use righting_analysis::envelope::fibonacci;
 use righting_scenario::Error;
-use righting_scenario::json::{Bounds, Place, shown};
+use righting_scenario::json::{Bounds, Location, shown};
 use serde_json::{Value, json};
 
 use crate::draw::Draws;
@@ -44,7 +44,7 @@ impl Settings {
     pub fn from_file(
         dimension: &file::Dimension,
         field: &str,
-        place: &Place,
+        place: &Location,
     ) -> Result<Self, Error> {
         const RULES: &str = "`values`, `grid`, `fibonacci`, `uniform`, `normal` or `directions`";
         let file::Dimension { values, grid, fibonacci, uniform, normal, directions, .. } =
@@ -145,11 +145,11 @@ fn kind_of(value: &Value) -> Kind {
     }
 }
 
-fn count_of(count: u64, most: f64, place: &Place) -> Result<usize, Error> {
+fn count_of(count: u64, most: f64, place: &Location) -> Result<usize, Error> {
     Ok(place.within(count as f64, Bounds::Whole(1.0, most))? as usize)
 }
 
-fn listed(values: &[Value], place: &Place) -> Result<Settings, Error> {
+fn listed(values: &[Value], place: &Location) -> Result<Settings, Error> {
     if !(1..=MOST_LISTED as usize).contains(&values.len()) {
         let expected = format!("1 to {MOST_LISTED}");
         return Err(place.refuse(format!("{} values", values.len()), expected));
@@ -164,7 +164,7 @@ fn listed(values: &[Value], place: &Place) -> Result<Settings, Error> {
     Ok(Settings::Listed(values.to_vec()))
 }
 
-fn spaced(grid: &file::Grid, place: &Place) -> Result<Settings, Error> {
+fn spaced(grid: &file::Grid, place: &Location) -> Result<Settings, Error> {
     let from = place.key("from").within(grid.from, FINITE)?;
     let to = place.key("to").within(grid.to, FINITE)?;
     let count = count_of(grid.count, MOST_LISTED, &place.key("count"))?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use righting_scenario::json::{Bounds, Document, FileKind, Place, shown};
+use righting_scenario::json::{Bounds, Document, FileKind, Location, shown};
 use righting_scenario::{Error, Scenario};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -54,14 +54,14 @@ impl Sweep {
     }
 
     fn from_document(document: &Document, file: &Path) -> Result<Self, Error> {
-        Self::from_file_at(document.decode()?, file, &Place::root(file))
+        Self::from_file_at(document.decode()?, file, &Location::root(file))
     }
 
     /// Checks a sweep that stands at `place` in `file`.
     pub(crate) fn from_file_at(
         sweep: file::Sweep,
         file: &Path,
-        place: &Place,
+        place: &Location,
     ) -> Result<Self, Error> {
         if sweep.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
@@ -102,7 +102,7 @@ impl Sweep {
     }
 
     /// Every field is set in the first case, so one that the scenario does not have shows there.
-    fn check_first_case(&self, file: &Path, place: &Place) -> Result<(), Error> {
+    fn check_first_case(&self, file: &Path, place: &Location) -> Result<(), Error> {
         let first = self.case(0);
         let mut scenario = self.base.clone();
         for (column, (at, variation)) in self.variations(place).enumerate() {
@@ -130,8 +130,8 @@ impl Sweep {
     /// Every variation with its place in the file.
     fn variations<'a>(
         &'a self,
-        place: &'a Place,
-    ) -> impl Iterator<Item = (Place, &'a crate::dimension::Variation)> {
+        place: &'a Location,
+    ) -> impl Iterator<Item = (Location, &'a crate::dimension::Variation)> {
         self.dimensions.iter().enumerate().flat_map(move |(i, dimension)| {
             let at = place.key("vary").index(i);
             let zipped = self.resolved.vary[i].zip.is_some();
@@ -237,7 +237,7 @@ impl Sweep {
     }
 }
 
-fn base(reference: &ScenarioReference, file: &Path, place: &Place) -> Result<Scenario, Error> {
+fn base(reference: &ScenarioReference, file: &Path, place: &Location) -> Result<Scenario, Error> {
     match reference {
         ScenarioReference::Inline(scenario) => {
             Scenario::from_file_at((**scenario).clone(), file, place)
@@ -259,7 +259,7 @@ fn base(reference: &ScenarioReference, file: &Path, place: &Place) -> Result<Sce
     }
 }
 
-fn dimensions(vary: &[file::Dimension], place: &Place) -> Result<Vec<Dimension>, Error> {
+fn dimensions(vary: &[file::Dimension], place: &Location) -> Result<Vec<Dimension>, Error> {
     if vary.is_empty() {
         return Err(place.refuse("[]", "at least one field that varies"));
     }
@@ -268,7 +268,7 @@ fn dimensions(vary: &[file::Dimension], place: &Place) -> Result<Vec<Dimension>,
 }
 
 /// The columns; no field is set and no name used twice.
-fn columns(dimensions: &[Dimension], place: &Place) -> Result<Vec<Column>, Error> {
+fn columns(dimensions: &[Dimension], place: &Location) -> Result<Vec<Column>, Error> {
     let mut columns: Vec<Column> = Vec::new();
     for (i, dimension) in dimensions.iter().enumerate() {
         for variation in dimension.variations() {

@@ -13,7 +13,7 @@ use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use righting_multibody::{State, System};
 use righting_results::solution::SCHEMA;
 use righting_results::{
-    AttemptRecord, Interval, Node, Solution, Status, Terminal, Timing, Trajectory, Versions,
+    AttemptRecord, ControlInterval, Node, Solution, Status, Terminal, Timing, Trajectory, Versions,
     objective,
 };
 use righting_scenario::{Scenario, file};
@@ -135,10 +135,11 @@ pub fn trajectory_of(
         joint_rates_rad_s: state.joint_rates.clone(),
         power_w: torques(k, state).iter().zip(&state.joint_rates).map(|(t, rate)| t * rate).sum(),
     });
-    let intervals = controls.iter().zip(states).enumerate().map(|(k, (control, state))| Interval {
-        joint_accelerations_rad_s2: control.clone(),
-        joint_torques_n_m: torques(k, state),
-    });
+    let intervals =
+        controls.iter().zip(states).enumerate().map(|(k, (control, state))| ControlInterval {
+            joint_accelerations_rad_s2: control.clone(),
+            joint_torques_n_m: torques(k, state),
+        });
     Trajectory::new(nodes.collect(), intervals.collect()).unwrap()
 }
 
@@ -179,7 +180,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
 /// The same trajectory with nodes or intervals changed.
 pub fn tampered(
     trajectory: &Trajectory,
-    change: impl FnOnce(&mut Vec<Node>, &mut Vec<Interval>),
+    change: impl FnOnce(&mut Vec<Node>, &mut Vec<ControlInterval>),
 ) -> Trajectory {
     let mut nodes = trajectory.nodes().to_vec();
     let mut intervals = trajectory.intervals().to_vec();

@@ -6,7 +6,7 @@ use righting_results::solution::{SCHEMA, Solution};
 use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE, objective};
 use righting_scenario::error::Error;
-use righting_scenario::json::Place;
+use righting_scenario::json::Location;
 use righting_scenario::scenario::Scenario;
 
 use crate::ledger::{Ledger, Worst};
@@ -38,7 +38,7 @@ pub struct Verified {
 pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
     let solution_file: PathBuf = folder.join(SOLUTION_FILE);
     let solution = Solution::read_json(&solution_file)?;
-    let place = Place::root(&solution_file);
+    let place = Location::root(&solution_file);
     if solution.schema != SCHEMA {
         let found = format!("\"{}\"", solution.schema);
         return Err(place.key("schema").refuse(found, format!("\"{SCHEMA}\"")));

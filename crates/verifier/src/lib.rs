@@ -24,7 +24,7 @@
 //! ```
 //! use std::path::Path;
 //!
-//! use righting_results::{Interval, Node, Trajectory};
+//! use righting_results::{ControlInterval, Node, Trajectory};
 //! use righting_scenario::Scenario;
 //! use righting_verifier::verify;
 //!
@@ -41,7 +41,10 @@
 //!     joint_rates_rad_s: vec![0.0; 2],
 //!     power_w: 0.0,
 //! };
-//! let idle = Interval { joint_accelerations_rad_s2: vec![0.0; 2], joint_torques_n_m: vec![0.0; 2] };
+//! let idle = ControlInterval {
+//!     joint_accelerations_rad_s2: vec![0.0; 2],
+//!     joint_torques_n_m: vec![0.0; 2],
+//! };
 //! let trajectory = Trajectory::new((0..=steps).map(node).collect(), vec![idle; steps])?;
 //! let verification = verify(&scenario, &trajectory);
 //! let failed: Vec<&str> = verification.failures().map(|check| check.name.as_str()).collect();

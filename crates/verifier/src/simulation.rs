@@ -1,6 +1,6 @@
 //! The second integration: from a start and the controls alone.
 
-use righting_results::trajectory::Interval;
+use righting_results::trajectory::ControlInterval;
 use righting_scenario::scenario::Horizon;
 
 use crate::dormand_prince::DormandPrince;
@@ -17,7 +17,12 @@ pub(super) struct Simulation {
 impl Simulation {
     /// Integrates the full equations of motion from the state vector `start`. After a state that
     /// cannot be followed, all later ones are NaN.
-    pub fn new(model: &Model, horizon: Horizon, start: &[f64], intervals: &[Interval]) -> Self {
+    pub fn new(
+        model: &Model,
+        horizon: Horizon,
+        start: &[f64],
+        intervals: &[ControlInterval],
+    ) -> Self {
         let mut motion = Motion::new(model);
         let mut integrator = DormandPrince::new(start.len());
         let mut x = start.to_vec();

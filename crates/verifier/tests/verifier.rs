@@ -41,7 +41,7 @@ fn example() -> (Scenario, Trajectory) {
 }
 
 fn caught(
-    change: impl FnOnce(&mut Vec<Node>, &mut Vec<righting_results::Interval>),
+    change: impl FnOnce(&mut Vec<Node>, &mut Vec<righting_results::ControlInterval>),
 ) -> Vec<String> {
     let (scenario, trajectory) = example();
     assert!(verify(&scenario, &trajectory).passed);

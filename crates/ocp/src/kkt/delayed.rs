@@ -2,7 +2,6 @@
 
 use super::elimination::Elimination;
 use super::lanes::{AlignedVec, reset, zeros};
-use super::node::NodeFactor;
 use super::pattern::NodePattern;
 
 /// How the unknowns delayed by the next node couple to its states and among themselves.
@@ -38,8 +37,16 @@ impl Delayed {
 
     /// Inserts the rows and columns of the delayed unknowns behind the leading ones of `matrix`:
     /// they couple to the next states, `x⁺ = c − J z`, so to this node's unknowns through the step.
-    pub fn append(&mut self, pattern: &NodePattern, node: &NodeFactor, matrix: &mut AlignedVec) {
-        let (split, stride) = (node.leading.split, node.leading.stride);
+    ///
+    /// `leading` has the split and stride of the extended rows, `jacobian` are the node's values.
+    pub fn append(
+        &mut self,
+        pattern: &NodePattern,
+        leading: &Elimination,
+        jacobian: &[f64],
+        matrix: &mut AlignedVec,
+    ) {
+        let (split, stride) = (leading.split, leading.stride);
         let own = pattern.shape.leading();
         reset(&mut self.extended, (own + self.count) * stride);
         let extended = &mut self.extended;
@@ -56,7 +63,7 @@ impl Delayed {
                 let entries = pattern.jacobian.column(column).iter();
                 let coupling: f64 = entries
                     .filter(|entry| pattern.jacobian.is_defect(entry))
-                    .map(|entry| -node.jacobian[entry.slot as usize] * states[entry.row as usize])
+                    .map(|entry| -jacobian[entry.slot as usize] * states[entry.row as usize])
                     .sum();
                 match column.checked_sub(pattern.shape.free) {
                     None => extended[column * stride + own + j] = coupling,

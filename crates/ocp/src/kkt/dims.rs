@@ -63,7 +63,7 @@ pub(super) enum Role {
 
 /// Offsets of one node's unknowns in the augmented vector `[z, s, y_c, y_d]`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NodeLayout {
+pub(super) struct NodeOffsets {
     pub dims: NodeDims,
     /// Rows of the defect that leads to the next node: the states there.
     pub defects: usize,
@@ -74,7 +74,7 @@ pub(super) struct NodeLayout {
     pub inequality: usize,
 }
 
-impl NodeLayout {
+impl NodeOffsets {
     /// First control in the augmented vector.
     pub fn control(&self) -> usize {
         self.variable + self.dims.states
@@ -83,12 +83,12 @@ impl NodeLayout {
 
 /// Where every unknown of the augmented system sits.
 #[derive(Debug, Clone)]
-pub(super) struct Layout {
-    pub nodes: Vec<NodeLayout>,
+pub(super) struct SystemLayout {
+    pub nodes: Vec<NodeOffsets>,
     pub order: usize,
 }
 
-impl Layout {
+impl SystemLayout {
     pub fn new(dims: &StageDims) -> Self {
         let count = |size: fn(&NodeDims) -> usize| dims.nodes.iter().map(size).sum::<usize>();
         let defects = count(|node| node.states) - dims.nodes.first().map_or(0, |node| node.states);
@@ -99,7 +99,7 @@ impl Layout {
         let mut nodes = Vec::with_capacity(dims.nodes.len());
         for (k, node) in dims.nodes.iter().enumerate() {
             let next_states = dims.nodes.get(k + 1).map_or(0, |next| next.states);
-            nodes.push(NodeLayout {
+            nodes.push(NodeOffsets {
                 dims: *node,
                 defects: next_states,
                 variable,
@@ -118,7 +118,8 @@ impl Layout {
 
     /// Constraints of the problem.
     pub fn constraints(&self) -> usize {
-        let rows = |node: &NodeLayout| node.defects + node.dims.equalities + node.dims.inequalities;
+        let rows =
+            |node: &NodeOffsets| node.defects + node.dims.equalities + node.dims.inequalities;
         self.nodes.iter().map(rows).sum()
     }
 

@@ -3,14 +3,14 @@
 use pulp::{Simd, WithSimd};
 
 use super::assembly::Assembly;
+use super::defect_regularization::DefectRegularizationWorkspace;
 use super::delayed::Delayed;
-use super::dims::Layout;
+use super::dims::SystemLayout;
 use super::elimination::Breakdown;
 use super::hessian::{CostToGo, Image, leading_scales};
 use super::lanes::{AlignedVec, zeros};
 use super::node::NodeFactor;
 use super::packed::pack;
-use super::regularization::RegularizationWorkspace;
 use super::structure::Structure;
 
 /// Scratch of the sweep.
@@ -27,7 +27,7 @@ pub(super) struct FactorWorkspace {
     /// Behind the node.
     value: CostToGo,
     delayed: Delayed,
-    regularization: RegularizationWorkspace,
+    regularization: DefectRegularizationWorkspace,
 }
 
 impl Default for FactorWorkspace {
@@ -40,14 +40,14 @@ impl Default for FactorWorkspace {
             scales: Vec::new(),
             value: CostToGo::default(),
             delayed: Delayed::default(),
-            regularization: RegularizationWorkspace::default(),
+            regularization: DefectRegularizationWorkspace::default(),
         }
     }
 }
 
 /// One factorisation.
 pub(super) struct Factor<'a> {
-    pub layout: &'a Layout,
+    pub layout: &'a SystemLayout,
     pub structure: &'a Structure,
     pub nodes: &'a mut [NodeFactor],
     pub work: &'a mut FactorWorkspace,
@@ -142,7 +142,7 @@ impl Factor<'_> {
             let from = next.leading.eliminated;
             node.leading.unknowns.extend_from_slice(&next.leading.unknowns[from..]);
             work.scales.extend_from_slice(&next.leading.scales[from..]);
-            work.delayed.append(pattern, node, &mut work.matrix);
+            work.delayed.append(pattern, &node.leading, &node.jacobian, &mut work.matrix);
         }
         if work.scaled.len() < work.matrix.len() {
             work.scaled.resize(work.matrix.len(), 0.0);

@@ -1,7 +1,7 @@
 //! How a node's values are collected from the triplets.
 
 use super::lanes::copy_short;
-use super::pattern::{NodePattern, Place, Position};
+use super::pattern::{BlockEntry, NodePattern, Position};
 
 /// Consecutive triplets that are consecutive in the node's storage too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,9 +10,9 @@ pub(super) struct Run {
     pub length: u32,
 }
 
-/// The way into one storage: runs, and positions that get another value on top.
+/// What goes into one storage: runs, and positions that get another value on top.
 #[derive(Debug, Default)]
-pub(super) struct Way {
+pub(super) struct CopyPlan {
     pub runs: Vec<Run>,
     pub repeats: Vec<u32>,
     /// The node's triplets that these take, by their number within the node.
@@ -20,46 +20,51 @@ pub(super) struct Way {
     repeat_triplets: Vec<u32>,
 }
 
-/// The way from triplets to a node's storage, shared by all nodes whose triplets come in the same
+/// How triplets come into a node's storage, shared by all nodes whose triplets come in the same
 /// order. A node's *sources* are triplet indices: for the assembly and then for the Jacobian, the
 /// first of each run, then one for each repeated value.
 #[derive(Debug)]
 pub(super) struct Gather {
-    /// Place of each of the node's triplets, in triplet order.
-    places: Vec<Place>,
+    /// Entry of each of the node's triplets, in triplet order.
+    entries: Vec<BlockEntry>,
     pub pattern: usize,
-    pub assembly: Way,
-    pub jacobian: Way,
+    pub assembly: CopyPlan,
+    pub jacobian: CopyPlan,
 }
 
 impl Gather {
-    /// The way for a node with these places; `triplets` are their indices, `sorted` their order
-    /// by place.
+    /// The plan for a node with these entries; `triplets` are their indices, `sorted` their order
+    /// by entry.
     pub fn new(
-        places: Vec<Place>,
+        entries: Vec<BlockEntry>,
         triplets: &[u32],
         sorted: &[u32],
         pattern: &NodePattern,
         pattern_index: usize,
     ) -> Self {
-        let (mut assembly, mut jacobian) = (Way::default(), Way::default());
+        let (mut assembly, mut jacobian) = (CopyPlan::default(), CopyPlan::default());
         let mut previous = None;
         for &number in sorted {
-            let place = places[number as usize];
-            let (way, position) = match pattern.position(place) {
+            let entry = entries[number as usize];
+            let (plan, position) = match pattern.position(entry) {
                 Position::Assembly(position) => (&mut assembly, position),
                 Position::Jacobian(position) => (&mut jacobian, position),
             };
-            way.push(position as u32, number, previous == Some(place), triplets);
-            previous = Some(place);
+            plan.push(position as u32, number, previous == Some(entry), triplets);
+            previous = Some(entry);
         }
-        Self { places, pattern: pattern_index, assembly, jacobian }
+        Self { entries, pattern: pattern_index, assembly, jacobian }
     }
 
-    /// Appends the sources of a node, if its triplets come in this way's order.
-    pub fn try_sources(&self, places: &[Place], triplets: &[u32], sources: &mut Vec<u32>) -> bool {
+    /// Appends the sources of a node, if its triplets come in this plan's order.
+    pub fn try_sources(
+        &self,
+        entries: &[BlockEntry],
+        triplets: &[u32],
+        sources: &mut Vec<u32>,
+    ) -> bool {
         let start = sources.len();
-        let fits = self.places == places
+        let fits = self.entries == entries
             && self.assembly.try_sources(triplets, sources)
             && self.jacobian.try_sources(triplets, sources);
         if !fits {
@@ -69,7 +74,7 @@ impl Gather {
     }
 }
 
-impl Way {
+impl CopyPlan {
     fn push(&mut self, destination: u32, number: u32, repeated: bool, triplets: &[u32]) {
         if repeated {
             self.repeats.push(destination);

@@ -9,7 +9,7 @@
 use pulp::Simd;
 
 use super::lanes::{add_products, add_rows, dot, tile_rows, vectors, vectors_mut};
-use super::pattern::NodeShape;
+use super::shape::NodeShape;
 
 /// Rows with more entries than this are full rows.
 const SPARSE_ROW: usize = 4;

@@ -37,6 +37,7 @@
 //!   not depend on them beyond rounding.
 
 mod assembly;
+mod defect_regularization;
 mod delayed;
 mod dims;
 mod elimination;
@@ -48,7 +49,7 @@ mod lanes;
 mod node;
 mod packed;
 mod pattern;
-mod regularization;
+mod shape;
 mod solve;
 mod solver;
 mod structure;

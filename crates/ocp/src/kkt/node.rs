@@ -1,10 +1,10 @@
 //! What the factorisation keeps of each node.
 
+use super::defect_regularization::DefectRegularization;
 use super::elimination::{Breakdown, Elimination, NOISE};
 use super::lanes::{AlignedVec, zeros};
 use super::packed::packed_length;
 use super::pattern::NodePattern;
-use super::regularization::Regularization;
 
 /// Factor of one node and of the defect that leads from it to the next.
 #[derive(Debug)]
@@ -21,7 +21,7 @@ pub(super) struct NodeFactor {
     /// Elimination of each inequality's slack and multiplier.
     pub inequalities: Vec<InequalityPivot>,
     /// Elimination of next state and defect multiplier where the defects are regularised.
-    pub regularization: Option<Box<Regularization>>,
+    pub regularization: Option<Box<DefectRegularization>>,
 }
 
 impl NodeFactor {

@@ -6,29 +6,12 @@
 //! columns, padded to whole SIMD vectors, then the state columns, padded likewise.
 
 use super::jacobian::JacobianPattern;
-
-/// Counts of one node's unknowns and constraint rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) struct NodeShape {
-    /// Leading unknowns that the constraints see: controls (at node 0 the states before them).
-    pub free: usize,
-    pub equalities: usize,
-    /// Trailing states: none at node 0.
-    pub states: usize,
-    pub defects: usize,
-    pub inequalities: usize,
-}
-
-impl NodeShape {
-    pub fn leading(&self) -> usize {
-        self.free + self.equalities
-    }
-}
+use super::shape::NodeShape;
 
 /// Part of a node's matrix, in the order of the node's storage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u16)]
-pub(super) enum Block {
+pub(super) enum NodeBlock {
     /// Upper triangle, leading row: leading columns.
     Leading,
     /// Upper triangle, leading row: state columns.
@@ -51,17 +34,17 @@ pub(super) enum Block {
 
 /// Where one value of the augmented matrix belongs in its node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct Place {
-    pub block: Block,
+pub(super) struct BlockEntry {
+    pub block: NodeBlock,
     pub row: u16,
     /// Zero in blocks that are diagonal.
     pub column: u16,
 }
 
-impl Place {
-    /// A place whose indices fit, which the node's shape has been checked for.
+impl BlockEntry {
+    /// An entry whose indices fit, which the node's shape has been checked for.
     #[inline(always)]
-    pub fn new(block: Block, row: usize, column: usize) -> Self {
+    pub fn new(block: NodeBlock, row: usize, column: usize) -> Self {
         Self { block, row: row as u16, column: column as u16 }
     }
 }
@@ -107,14 +90,21 @@ pub(super) enum MissingCoupling {
 }
 
 impl NodePattern {
-    /// Builds the pattern from the sorted places of a node's values (repeats are summed there).
-    pub fn new(shape: NodeShape, places: &[Place], lanes: usize) -> Result<Self, MissingCoupling> {
-        let coupled =
-            |block: Block, row: usize| places.binary_search(&Place::new(block, row, 0)).is_ok();
-        if let Some(row) = (0..shape.defects).find(|&row| !coupled(Block::DefectCoupling, row)) {
+    /// Builds the pattern from the sorted entries of a node's values (repeats are summed there).
+    pub fn new(
+        shape: NodeShape,
+        entries: &[BlockEntry],
+        lanes: usize,
+    ) -> Result<Self, MissingCoupling> {
+        let coupled = |block: NodeBlock, row: usize| {
+            entries.binary_search(&BlockEntry::new(block, row, 0)).is_ok()
+        };
+        if let Some(row) = (0..shape.defects).find(|&row| !coupled(NodeBlock::DefectCoupling, row))
+        {
             return Err(MissingCoupling::Defect(row));
         }
-        if let Some(row) = (0..shape.inequalities).find(|&row| !coupled(Block::SlackCoupling, row))
+        if let Some(row) =
+            (0..shape.inequalities).find(|&row| !coupled(NodeBlock::SlackCoupling, row))
         {
             return Err(MissingCoupling::Slack(row));
         }
@@ -139,35 +129,35 @@ impl NodePattern {
         };
         sections.end = end;
 
-        let mut entries: Vec<(usize, usize)> = Vec::new();
-        for place in places.iter().filter(|place| place.block == Block::Jacobian) {
+        let mut jacobian_entries: Vec<(usize, usize)> = Vec::new();
+        for place in entries.iter().filter(|entry| entry.block == NodeBlock::Jacobian) {
             let column = local_column(shape, split, usize::from(place.column));
             let entry = (usize::from(place.row), column);
-            if entries.last() != Some(&entry) {
-                entries.push(entry);
+            if jacobian_entries.last() != Some(&entry) {
+                jacobian_entries.push(entry);
             }
         }
-        let jacobian = JacobianPattern::new(shape, split, stride, &entries, lanes);
+        let jacobian = JacobianPattern::new(shape, split, stride, &jacobian_entries, lanes);
         Ok(Self { shape, split, stride, state_stride, jacobian, sections })
     }
 
     /// Where a value goes.
-    pub fn position(&self, place: Place) -> Position {
+    pub fn position(&self, entry: BlockEntry) -> Position {
         let sections = &self.sections;
-        let (row, column) = (usize::from(place.row), usize::from(place.column));
-        Position::Assembly(match place.block {
-            Block::Jacobian => {
+        let (row, column) = (usize::from(entry.row), usize::from(entry.column));
+        Position::Assembly(match entry.block {
+            NodeBlock::Jacobian => {
                 let column = local_column(self.shape, self.split, column);
                 return Position::Jacobian(self.jacobian.slot(row, column));
             }
-            Block::Leading => row * self.stride + column,
-            Block::Cross => row * self.stride + self.split + column,
-            Block::State => sections.states + row * self.state_stride + column,
-            Block::DefectCoupling => sections.defect_couplings + row,
-            Block::DefectDiagonal => sections.defect_diagonals + row,
-            Block::SlackDiagonal => sections.slack_diagonals + row,
-            Block::SlackCoupling => sections.slack_couplings + row,
-            Block::InequalityDiagonal => sections.inequality_diagonals + row,
+            NodeBlock::Leading => row * self.stride + column,
+            NodeBlock::Cross => row * self.stride + self.split + column,
+            NodeBlock::State => sections.states + row * self.state_stride + column,
+            NodeBlock::DefectCoupling => sections.defect_couplings + row,
+            NodeBlock::DefectDiagonal => sections.defect_diagonals + row,
+            NodeBlock::SlackDiagonal => sections.slack_diagonals + row,
+            NodeBlock::SlackCoupling => sections.slack_couplings + row,
+            NodeBlock::InequalityDiagonal => sections.inequality_diagonals + row,
         })
     }
 }

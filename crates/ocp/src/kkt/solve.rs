@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::dims::{Layout, NodeLayout};
+use super::dims::{NodeOffsets, SystemLayout};
 use super::elimination::Elimination;
 use super::lanes::{AlignedVec, add_rows, dot, reset, vectors, vectors_mut, zeros};
 use super::node::NodeFactor;
@@ -43,7 +43,7 @@ impl Default for SolveWorkspace {
 
 /// Solves in place with the factors of all nodes.
 pub(super) struct Solve<'a> {
-    pub layout: &'a Layout,
+    pub layout: &'a SystemLayout,
     pub structure: &'a Structure,
     pub nodes: &'a [NodeFactor],
     pub work: &'a mut SolveWorkspace,
@@ -57,28 +57,28 @@ impl WithSimd for Solve<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { layout, structure, nodes, work, rhs } = self;
         for k in (0..nodes.len()).rev() {
-            let step = Step::new(layout, structure, nodes, k);
+            let step = NodeStep::new(layout, structure, nodes, k);
             step.backward(simd, work, rhs);
         }
         for k in 0..nodes.len() {
-            let step = Step::new(layout, structure, nodes, k);
+            let step = NodeStep::new(layout, structure, nodes, k);
             step.forward(simd, work, rhs);
         }
     }
 }
 
 /// A node with the defect that leads to the next one.
-struct Step<'a> {
+struct NodeStep<'a> {
     pattern: &'a NodePattern,
     node: &'a NodeFactor,
-    at: &'a NodeLayout,
-    next: Option<(&'a NodeFactor, &'a NodeLayout)>,
+    at: &'a NodeOffsets,
+    next: Option<(&'a NodeFactor, &'a NodeOffsets)>,
 }
 
-impl<'a> Step<'a> {
+impl<'a> NodeStep<'a> {
     #[inline(always)]
     fn new(
-        layout: &'a Layout,
+        layout: &'a SystemLayout,
         structure: &'a Structure,
         nodes: &'a [NodeFactor],
         k: usize,

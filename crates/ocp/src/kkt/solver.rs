@@ -2,7 +2,7 @@
 
 use righting_nlp::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
 
-use super::dims::{Layout, StageDims};
+use super::dims::{StageDims, SystemLayout};
 use super::elimination::Breakdown;
 use super::factor::{Factor, FactorWorkspace, Inertia};
 use super::lanes::Lanes;
@@ -18,7 +18,7 @@ const STRICTEST_PIVOT_TOLERANCE: f64 = 1e-2;
 /// Stage-structured LDLᵀ of an augmented system: see the [module](super).
 #[derive(Debug)]
 pub struct StageKkt {
-    layout: Layout,
+    layout: SystemLayout,
     lanes: Lanes,
     structure: Option<Structure>,
     nodes: Vec<NodeFactor>,
@@ -51,7 +51,7 @@ impl StageKkt {
 
     fn with_lanes(dims: &StageDims, lanes: Lanes) -> Self {
         Self {
-            layout: Layout::new(dims),
+            layout: SystemLayout::new(dims),
             lanes,
             structure: None,
             nodes: Vec::new(),

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::dims::{Layout, Role};
+use super::dims::{Role, SystemLayout};
 use super::gather::Gather;
-use super::pattern::{Block, MissingCoupling, NodePattern, NodeShape, Place};
+use super::pattern::{BlockEntry, MissingCoupling, NodeBlock, NodePattern};
+use super::shape::NodeShape;
 
 /// Why a matrix is not the augmented system of the stage problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -79,7 +80,7 @@ pub(super) struct NodeSource {
 
 impl Structure {
     pub fn analyse(
-        layout: &Layout,
+        layout: &SystemLayout,
         order: usize,
         rows: &[i32],
         columns: &[i32],
@@ -101,23 +102,23 @@ impl Structure {
             sources: Vec::with_capacity(rows.len()),
             triplets: rows.len(),
         };
-        let mut known: HashMap<(NodeShape, Vec<Place>), usize> = HashMap::new();
+        let mut known: HashMap<(NodeShape, Vec<BlockEntry>), usize> = HashMap::new();
         let mut last = 0;
         for (k, &shape) in shapes.iter().enumerate() {
-            let (places, triplets) = by_node.node(k);
+            let (entries, triplets) = by_node.node(k);
             let start = structure.sources.len();
             let gathers = &structure.gathers;
-            // Mostly it is the previous node's; places alone do not tell a shape.
+            // Mostly it is the previous node's; entries alone do not tell a shape.
             let fitting = (last..gathers.len()).chain(0..last).find(|&gather| {
                 structure.patterns[gathers[gather].pattern].shape == shape
-                    && gathers[gather].try_sources(places, triplets, &mut structure.sources)
+                    && gathers[gather].try_sources(entries, triplets, &mut structure.sources)
             });
             last = match fitting {
                 Some(gather) => gather,
                 None => {
-                    let mut sorted: Vec<u32> = (0..places.len() as u32).collect();
-                    sorted.sort_by_key(|&number| places[number as usize]);
-                    let ordered = sorted.iter().map(|&number| places[number as usize]).collect();
+                    let mut sorted: Vec<u32> = (0..entries.len() as u32).collect();
+                    sorted.sort_by_key(|&number| entries[number as usize]);
+                    let ordered = sorted.iter().map(|&number| entries[number as usize]).collect();
                     let key = (shape, ordered);
                     let pattern = match known.get(&key) {
                         Some(&pattern) => pattern,
@@ -130,13 +131,13 @@ impl Structure {
                         }
                     };
                     let gather = Gather::new(
-                        places.to_vec(),
+                        entries.to_vec(),
                         triplets,
                         &sorted,
                         &structure.patterns[pattern],
                         pattern,
                     );
-                    gather.try_sources(places, triplets, &mut structure.sources);
+                    gather.try_sources(entries, triplets, &mut structure.sources);
                     structure.gathers.push(gather);
                     structure.gathers.len() - 1
                 }
@@ -158,13 +159,13 @@ impl Structure {
 /// Places and indices of the triplets, node after node, in triplet order within a node.
 struct TripletsByNode {
     starts: Vec<usize>,
-    places: Vec<Place>,
+    entries: Vec<BlockEntry>,
     triplets: Vec<u32>,
 }
 
 impl TripletsByNode {
     fn new(
-        layout: &Layout,
+        layout: &SystemLayout,
         shapes: &[NodeShape],
         rows: &[i32],
         columns: &[i32],
@@ -182,24 +183,24 @@ impl TripletsByNode {
             starts[k + 1] += starts[k];
         }
         let mut next = starts.clone();
-        let mut places = vec![Place::new(Block::Leading, 0, 0); rows.len()];
+        let mut entries = vec![BlockEntry::new(NodeBlock::Leading, 0, 0); rows.len()];
         let mut triplets = vec![0; rows.len()];
         for ((&row, &column), number) in rows.iter().zip(columns).zip(0..) {
             let (a, b) = (roles[row as usize], roles[column as usize]);
-            let Some(place) = locate(shapes, a, b) else {
+            let Some(entry) = locate(shapes, a, b) else {
                 return Err(KktStructureError::ForeignEntry { row, column });
             };
             let position = &mut next[a.0.min(b.0) as usize];
-            places[*position] = place;
+            entries[*position] = entry;
             triplets[*position] = number;
             *position += 1;
         }
-        Ok(Self { starts, places, triplets })
+        Ok(Self { starts, entries, triplets })
     }
 
-    fn node(&self, k: usize) -> (&[Place], &[u32]) {
+    fn node(&self, k: usize) -> (&[BlockEntry], &[u32]) {
         let range = self.starts[k]..self.starts[k + 1];
-        (&self.places[range.clone()], &self.triplets[range])
+        (&self.entries[range.clone()], &self.triplets[range])
     }
 }
 
@@ -210,7 +211,7 @@ fn missing_at(k: usize, missing: MissingCoupling) -> KktStructureError {
     }
 }
 
-fn node_shapes(layout: &Layout) -> Result<Vec<NodeShape>, KktStructureError> {
+fn node_shapes(layout: &SystemLayout) -> Result<Vec<NodeShape>, KktStructureError> {
     let shapes = layout.nodes.iter().enumerate().map(|(k, node)| {
         let dims = node.dims;
         let (free, states) =
@@ -231,10 +232,10 @@ fn node_shapes(layout: &Layout) -> Result<Vec<NodeShape>, KktStructureError> {
     shapes.collect()
 }
 
-/// Place of the entry between two unknowns, or nothing when the structure has none. It belongs to
+/// The entry between two unknowns, or nothing when the structure has none. It belongs to
 /// the earlier of their nodes.
 #[inline(always)]
-fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<Place> {
+fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<BlockEntry> {
     use Role::{Defect, Equality, Inequality, Slack, Variable};
     let ((node, first), (other, second)) = if rank(a.1) <= rank(b.1) { (a, b) } else { (b, a) };
     let shape = &shapes[node as usize];
@@ -242,7 +243,7 @@ fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<Place>
         && node == other + 1
     {
         let determined = i == row && (i as usize) < shape.states;
-        return determined.then_some(Place::new(Block::DefectCoupling, row as usize, 0));
+        return determined.then_some(BlockEntry::new(NodeBlock::DefectCoupling, row as usize, 0));
     }
     if node != other {
         return None;
@@ -253,31 +254,34 @@ fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<Place>
     let leading = |i: u32| i as usize - shape.states;
     let column = |i: u32| if is_state(i) { shape.free + i as usize } else { leading(i) };
     let multiplier = |row: u32| shape.free + row as usize;
-    let diagonal = |i: u32, j: u32, block| (i == j).then_some(Place::new(block, i as usize, 0));
+    let diagonal =
+        |i: u32, j: u32, block| (i == j).then_some(BlockEntry::new(block, i as usize, 0));
     match (first, second) {
         (Variable(i), Variable(j)) => {
             let (low, high) = (i.min(j), i.max(j));
             Some(match (is_state(low), is_state(high)) {
-                (true, true) => Place::new(Block::State, high as usize, low as usize),
-                (true, false) => Place::new(Block::Cross, leading(high), low as usize),
-                _ => Place::new(Block::Leading, leading(low), leading(high)),
+                (true, true) => BlockEntry::new(NodeBlock::State, high as usize, low as usize),
+                (true, false) => BlockEntry::new(NodeBlock::Cross, leading(high), low as usize),
+                _ => BlockEntry::new(NodeBlock::Leading, leading(low), leading(high)),
             })
         }
         (Variable(i), Equality(row)) => Some(match is_state(i) {
-            true => Place::new(Block::Cross, multiplier(row), i as usize),
-            false => Place::new(Block::Leading, leading(i), multiplier(row)),
+            true => BlockEntry::new(NodeBlock::Cross, multiplier(row), i as usize),
+            false => BlockEntry::new(NodeBlock::Leading, leading(i), multiplier(row)),
         }),
         (Equality(i), Equality(j)) => {
-            (i == j).then_some(Place::new(Block::Leading, multiplier(i), multiplier(i)))
+            (i == j).then_some(BlockEntry::new(NodeBlock::Leading, multiplier(i), multiplier(i)))
         }
-        (Variable(i), Defect(row)) => Some(Place::new(Block::Jacobian, row as usize, column(i))),
+        (Variable(i), Defect(row)) => {
+            Some(BlockEntry::new(NodeBlock::Jacobian, row as usize, column(i)))
+        }
         (Variable(i), Inequality(row)) => {
-            Some(Place::new(Block::Jacobian, shape.defects + row as usize, column(i)))
+            Some(BlockEntry::new(NodeBlock::Jacobian, shape.defects + row as usize, column(i)))
         }
-        (Defect(i), Defect(j)) => diagonal(i, j, Block::DefectDiagonal),
-        (Slack(i), Slack(j)) => diagonal(i, j, Block::SlackDiagonal),
-        (Slack(i), Inequality(j)) => diagonal(i, j, Block::SlackCoupling),
-        (Inequality(i), Inequality(j)) => diagonal(i, j, Block::InequalityDiagonal),
+        (Defect(i), Defect(j)) => diagonal(i, j, NodeBlock::DefectDiagonal),
+        (Slack(i), Slack(j)) => diagonal(i, j, NodeBlock::SlackDiagonal),
+        (Slack(i), Inequality(j)) => diagonal(i, j, NodeBlock::SlackCoupling),
+        (Inequality(i), Inequality(j)) => diagonal(i, j, NodeBlock::InequalityDiagonal),
         _ => None,
     }
 }

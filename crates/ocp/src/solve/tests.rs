@@ -2,10 +2,10 @@ use num_dual::DualNum;
 use righting_ipopt::{Factorization, LinearSolverError, PivotTolerances};
 
 use super::*;
+use crate::control_problem::ControlProblem;
 use crate::grid::Grid;
-use crate::problem::ControlProblem;
-use crate::stage::StageFunctions;
-use crate::start::Guess;
+use crate::initial_guess::InitialGuess;
+use crate::stage_functions::StageFunctions;
 
 const STEPS: usize = 30;
 
@@ -82,16 +82,16 @@ impl righting_ipopt::LinearSolver for Failing {
 fn pendulum() -> ControlProblem {
     ControlProblem::new(2, 1, |x, u| vec![x[1], u[0] - x[0].sin()])
         .running_cost(|_, u| u[0].powi(2))
-        .control_bounds(Interval::symmetric(&[0.6]))
+        .control_bounds(ComponentBounds::symmetric(&[0.6]))
         .terminal_constraints(
-            Interval::new(vec![std::f64::consts::PI, 0.0], vec![std::f64::consts::PI, 0.0]),
+            ComponentBounds::new(vec![std::f64::consts::PI, 0.0], vec![std::f64::consts::PI, 0.0]),
             |x| x.to_vec(),
         )
 }
 
 fn start(program: &MultipleShooting) -> righting_ipopt::Start {
-    let guess = Guess::constant(&[0.0, 0.0], 1, STEPS);
-    program.ipopt_start(&Start::Guess(guess)).unwrap()
+    let guess = InitialGuess::constant(&[0.0, 0.0], 1, STEPS);
+    program.ipopt_start(&OcpStart::Guess(guess)).unwrap()
 }
 
 /// The solution of a solver that fails, and how often iterations were counted from the start.
@@ -99,8 +99,8 @@ fn solved_in_trouble(
     functions: &StageFunctions,
     sound: usize,
     trouble: Trouble,
-    linear_solver: LinearSolver,
-) -> (Solution, usize) {
+    linear_solver: LinearSolverChoice,
+) -> (OcpSolution, usize) {
     let grid = Grid::new(10.0, STEPS).unwrap();
     let mut program = MultipleShooting::new(functions, grid, &[0.0, 0.0]).unwrap();
     let stage = StageKkt::new(&program.stage_dims());
@@ -122,20 +122,21 @@ fn mumps_takes_over_whatever_goes_wrong_and_whenever() {
     let functions = StageFunctions::compile(&pendulum()).unwrap();
     let grid = Grid::new(10.0, STEPS).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
-    let mumps = Settings { linear_solver: LinearSolver::Mumps, ..Settings::default() };
-    let guess = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let mumps = Settings { linear_solver: LinearSolverChoice::Mumps, ..Settings::default() };
+    let guess = OcpStart::Guess(InitialGuess::constant(&[0.0, 0.0], 1, STEPS));
     let expected = program.solve(&guess, &mumps, |_| Control::Continue).unwrap();
     assert_eq!(expected.status, Status::Solved);
     assert_eq!(expected.linear_solver, UsedLinearSolver::Mumps);
     use Trouble::*;
     for trouble in [Failed, Singular, WrongInertia, NotANumber, Noise] {
         for sound in [0, 2, 5] {
-            let (alone, _) = solved_in_trouble(&functions, sound, trouble, LinearSolver::Stage);
+            let (alone, _) =
+                solved_in_trouble(&functions, sound, trouble, LinearSolverChoice::Stage);
             assert!(!alone.status.is_success(), "{trouble:?} after {sound}: {}", alone.status);
             assert_eq!(alone.linear_solver, UsedLinearSolver::Stage);
 
             let (solution, begun) =
-                solved_in_trouble(&functions, sound, trouble, LinearSolver::Auto);
+                solved_in_trouble(&functions, sound, trouble, LinearSolverChoice::Auto);
             assert_eq!(solution.status, Status::Solved, "{trouble:?} after {sound}");
             assert_eq!(solution.linear_solver, UsedLinearSolver::MumpsAfterStage);
             assert_eq!(solution.point.z, expected.point.z, "{trouble:?} after {sound}");
@@ -150,7 +151,7 @@ fn both_optimizers_go_the_same_way() {
     let functions = StageFunctions::compile(&pendulum()).unwrap();
     let grid = Grid::new(10.0, STEPS).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
-    let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let start = OcpStart::Guess(InitialGuess::constant(&[0.0, 0.0], 1, STEPS));
     let mut solved = |optimizer| {
         let ipopt = Options { fast_step_computation: true, ..Options::default() };
         let settings = Settings { ipopt, optimizer, ..Settings::default() };
@@ -175,7 +176,7 @@ fn an_attempt_that_is_given_up_is_kept_with_its_reason() {
     let functions = StageFunctions::compile(&pendulum()).unwrap();
     let grid = Grid::new(10.0, STEPS).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.0, 0.0]).unwrap();
-    let start = Start::Guess(Guess::constant(&[0.0, 0.0], 1, STEPS));
+    let start = OcpStart::Guess(InitialGuess::constant(&[0.0, 0.0], 1, STEPS));
     let ipopt = Options { max_cpu_time: 100.0, ..Options::default() };
     let settings = Settings { ipopt, optimizer: Optimizer::Interior, ..Settings::default() };
     let solution = program.solve(&start, &settings, |_| Control::Continue).unwrap();

@@ -1,8 +1,8 @@
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, Guess, Iteration, LinearSolver, MultipleShooting, Optimizer, Options, Settings,
-    Solution, StageFunctions, Start,
+    Control, Grid, InitialGuess, Iteration, LinearSolverChoice, MultipleShooting, OcpSolution,
+    OcpStart, Optimizer, Options, Settings, StageFunctions,
 };
 use righting_planner::FormulatedManeuver;
 use righting_scenario::Scenario;
@@ -46,7 +46,7 @@ pub fn by_iteration(scenario: &Scenario) -> Outcome<Value> {
 }
 
 /// The same in Ipopt, on whose clocks linear solvers can be compared.
-pub fn in_ipopt(scenario: &Scenario, linear_solver: LinearSolver) -> Outcome<Value> {
+pub fn in_ipopt(scenario: &Scenario, linear_solver: LinearSolverChoice) -> Outcome<Value> {
     let folder = tempfile::tempdir()?;
     let report = folder.path().join("ipopt.txt");
     let ipopt = Options { extra: IpoptTiming::options(&report), ..Options::default() };
@@ -72,7 +72,7 @@ fn solved(
     scenario: &Scenario,
     settings: &Settings,
     mut on_iteration: impl FnMut(&Iteration),
-) -> Outcome<Solution> {
+) -> Outcome<OcpSolution> {
     let scenario = from_constant_guess(scenario)?;
     let horizon = scenario.horizon();
     let maneuver = FormulatedManeuver::new(&scenario);
@@ -80,8 +80,8 @@ fn solved(
     let grid = Grid::new(horizon.duration_s, horizon.steps)?;
     let mut program = MultipleShooting::new(&functions, grid, &maneuver.initial)?;
     let controls = scenario.system().joint_limits.len();
-    let guess = Guess::constant(&maneuver.initial, controls, horizon.steps);
-    let solution = program.solve(&Start::Guess(guess), settings, |iteration| {
+    let guess = InitialGuess::constant(&maneuver.initial, controls, horizon.steps);
+    let solution = program.solve(&OcpStart::Guess(guess), settings, |iteration| {
         on_iteration(iteration);
         Control::Continue
     })?;

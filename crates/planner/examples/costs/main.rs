@@ -13,7 +13,7 @@ mod planned;
 
 use std::process::{Command, ExitCode, Stdio};
 
-use righting_ocp::LinearSolver;
+use righting_ocp::LinearSolverChoice;
 use righting_scenario::Scenario;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -61,8 +61,8 @@ fn measured(scenario: &Scenario, how: &str) -> Outcome<Value> {
     match how {
         "plan" => planned::measured(scenario),
         "cold" => cold::by_iteration(scenario),
-        "stage" => cold::in_ipopt(scenario, LinearSolver::Stage),
-        "mumps" => cold::in_ipopt(scenario, LinearSolver::Mumps),
+        "stage" => cold::in_ipopt(scenario, LinearSolverChoice::Stage),
+        "mumps" => cold::in_ipopt(scenario, LinearSolverChoice::Mumps),
         _ => Err(format!("{how}: neither plan, cold, stage nor mumps").into()),
     }
 }

@@ -16,7 +16,7 @@ mod tests;
 use std::sync::Arc;
 
 use righting_multibody::{Quaternion, State, System};
-use righting_ocp::{ControlProblem, Interval};
+use righting_ocp::{ComponentBounds, ControlProblem};
 use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
@@ -25,7 +25,7 @@ use righting_scenario::collision::CollisionModel;
 use righting_scenario::file::{Formulation, Guess, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 
-/// A scenario as an optimal control problem: what [`plan`](crate::plan) transcribes and solves.
+/// A scenario as an optimal control problem: what [`Planner`](crate::Planner) transcribes and solves.
 pub struct FormulatedManeuver {
     /// The problem, in continuous time.
     pub problem: ControlProblem,
@@ -46,7 +46,7 @@ impl FormulatedManeuver {
         let states = coordinates.dimension();
         let limits = &scenario.system().joint_limits;
 
-        let mut state_bounds = Interval::unbounded(states);
+        let mut state_bounds = ComponentBounds::unbounded(states);
         for (joint, limits) in limits.iter().enumerate() {
             let (angle, rate) = (coordinates.joint_angle(joint), coordinates.joint_rate(joint));
             state_bounds.lower[angle] = limits.angle_min_rad;
@@ -67,7 +67,7 @@ impl FormulatedManeuver {
             .running_cost(move |_, u| sum_of_squares(u) * weights.control)
             .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
             .state_bounds(state_bounds)
-            .control_bounds(Interval::symmetric(&accelerations))
+            .control_bounds(ComponentBounds::symmetric(&accelerations))
             .path_constraints(clearances.bounds(), move |x| {
                 clearances.squared_distances(path.joint_angles(x))
             });
@@ -159,7 +159,7 @@ impl Clearances {
         self.varying.iter().map(|&index| all[index]).collect()
     }
 
-    fn bounds(&self) -> Interval {
+    fn bounds(&self) -> ComponentBounds {
         let links = self.collision.body_links.len();
         let smallest = |index: usize| match index < links {
             true => self.collision.body_distance_m,
@@ -167,7 +167,7 @@ impl Clearances {
         };
         let lower: Vec<f64> = self.varying.iter().map(|&index| smallest(index).powi(2)).collect();
         let upper = vec![f64::INFINITY; lower.len()];
-        Interval::new(lower, upper)
+        ComponentBounds::new(lower, upper)
     }
 }
 

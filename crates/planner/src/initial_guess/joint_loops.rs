@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{DMatrix, DVector, Vector3};
 use righting_multibody::Quaternion;
-use righting_ocp::Guess;
+use righting_ocp::InitialGuess;
 
 use super::{InitialGuesses, LIMIT_SHARE};
 
@@ -50,7 +50,7 @@ impl InitialGuesses<'_> {
     /// leads to better plans, in fewer iterations, than the attitude that the loop makes.
     ///
     /// None where no small loop around the first posture turns the base about the axis.
-    pub(crate) fn joint_loops(&self, target: &Quaternion<f64>) -> Vec<Guess> {
+    pub(crate) fn joint_loops(&self, target: &Quaternion<f64>) -> Vec<InitialGuess> {
         let initial = self.scenario.initial();
         let (axis, angle_rad) = initial.attitude.conjugate().product(target).to_axis_angle();
         let curvature = self.curvature(&initial.joint_angles_rad);
@@ -67,7 +67,13 @@ impl InitialGuesses<'_> {
 
     /// The loop of the size at which it turns the base by `angle_rad` about `axis`, or as large a one
     /// as the joints allow.
-    fn scaled(&self, circle: &Circle, turns: usize, axis: &Vector3<f64>, angle_rad: f64) -> Guess {
+    fn scaled(
+        &self,
+        circle: &Circle,
+        turns: usize,
+        axis: &Vector3<f64>,
+        angle_rad: f64,
+    ) -> InitialGuess {
         let start = self.scenario.initial().attitude;
         let area = angle_rad / (turns as f64 * circle.turn_per_area);
         let mut radius = (area / PI).sqrt().min(LARGEST_RADIUS_RAD);
@@ -87,7 +93,7 @@ impl InitialGuesses<'_> {
     }
 
     /// The joints go around the circle through the first posture, from rest to rest.
-    fn around(&self, circle: &Circle, radius: f64, turns: usize) -> Guess {
+    fn around(&self, circle: &Circle, radius: f64, turns: usize) -> InitialGuess {
         let mut guess = self.constant();
         let step_s = self.scenario.horizon().duration_s / self.steps as f64;
         let initial = &self.scenario.initial().joint_angles_rad;
@@ -115,10 +121,10 @@ impl InitialGuesses<'_> {
     /// The same joint motion while the base turns evenly about `axis`, from rest to rest.
     fn with_attitude_between(
         &self,
-        mut guess: Guess,
+        mut guess: InitialGuess,
         axis: &Vector3<f64>,
         angle_rad: f64,
-    ) -> Guess {
+    ) -> InitialGuess {
         let start = self.scenario.initial().attitude;
         for node in 1..=self.steps {
             let turned = 0.5 * (1.0 - (PI * node as f64 / self.steps as f64).cos());

@@ -4,7 +4,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
-use righting_ocp::{Control, Grid, Guess, OcpError, Settings, Solution};
+use righting_ocp::{Control, Grid, InitialGuess, OcpError, OcpSolution, Settings};
 use righting_results::IterationRecord;
 
 use super::model::Model;
@@ -15,14 +15,14 @@ const SHOW_EVERY: Duration = Duration::from_millis(20);
 
 enum Event {
     Iteration(IterationRecord),
-    Solved(usize, Box<Result<Solution, OcpError>>),
+    Solved(usize, Box<Result<OcpSolution, OcpError>>),
 }
 
 /// Solves of one problem from several starts.
 pub(super) struct Batch<'a> {
     pub(super) model: &'a Model,
     pub(super) grid: Grid,
-    pub(super) starts: &'a [(Guess, Settings)],
+    pub(super) starts: &'a [(InitialGuess, Settings)],
 }
 
 impl Batch<'_> {
@@ -35,13 +35,13 @@ impl Batch<'_> {
         threads: NonZeroUsize,
         on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
         stop: &AtomicBool,
-    ) -> Result<Vec<Solution>, OcpError> {
+    ) -> Result<Vec<OcpSolution>, OcpError> {
         let threads = threads.get().min(self.starts.len());
         // A machine that gives no threads still has this one.
         let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else {
             return self.solve_here(on_iteration, stop);
         };
-        let mut solved: Vec<Option<Result<Solution, OcpError>>> =
+        let mut solved: Vec<Option<Result<OcpSolution, OcpError>>> =
             self.starts.iter().map(|_| None).collect();
         pool.in_place_scope_fifo(|scope| {
             let (sender, events) = mpsc::channel();
@@ -82,16 +82,16 @@ impl Batch<'_> {
         &self,
         on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
         stop: &AtomicBool,
-    ) -> Result<Vec<Solution>, OcpError> {
+    ) -> Result<Vec<OcpSolution>, OcpError> {
         let solve = |start| self.solve_one(start, super::stoppable(on_iteration, stop));
         self.starts.iter().map(solve).collect()
     }
 
     fn solve_one(
         &self,
-        (guess, settings): &(Guess, Settings),
+        (guess, settings): &(InitialGuess, Settings),
         on_iteration: impl FnMut(IterationRecord) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         self.model.solve(self.grid, guess.clone(), settings, on_iteration)
     }
 }

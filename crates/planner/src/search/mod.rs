@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Attempt, Control, Grid, Guess, OcpError, Settings, Solution, close_guess_settings,
+    Attempt, Control, Grid, InitialGuess, OcpError, OcpSolution, Settings, close_guess_settings,
 };
 use righting_results::IterationRecord;
 use righting_results::trajectory::Trajectory;
@@ -53,7 +53,7 @@ pub(crate) struct Search<'a> {
 /// What a search ends with.
 pub(crate) struct Found {
     /// On the asked grid and in the asked form.
-    pub(crate) solution: Solution,
+    pub(crate) solution: OcpSolution,
     /// What its states are.
     pub(crate) coordinates: Coordinates,
     /// Whether second-order conditions hold there, or were not asked for.
@@ -138,15 +138,16 @@ impl<'a> Search<'a> {
 
     /// The best solution on the coarse grid, in the reduced form; none if nothing is ranked or no
     /// guess converged.
-    fn best_coarse_solution(&mut self) -> Result<Option<Solution>, OcpError> {
+    fn best_coarse_solution(&mut self) -> Result<Option<OcpSolution>, OcpError> {
         let grid = grids::coarse(self.scenario, &self.grid)?;
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let guesses = model.initial_guesses(self.scenario, grid.steps());
         let cold = settings::coarse(self.scenario);
-        let mut starts: Vec<(Guess, Settings)> = portfolio::ranked_guesses(self.scenario, &guesses)
-            .into_iter()
-            .map(|guess| (guess, cold.clone()))
-            .collect();
+        let mut starts: Vec<(InitialGuess, Settings)> =
+            portfolio::ranked_guesses(self.scenario, &guesses)
+                .into_iter()
+                .map(|guess| (guess, cold.clone()))
+                .collect();
         if let Some(earlier) = self.earlier {
             if starts.is_empty() {
                 starts.push((guesses.constant(), cold.clone()));
@@ -158,7 +159,7 @@ impl<'a> Search<'a> {
         }
         let batch = Batch { model, grid, starts: &starts };
         let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        let mut best: Option<Solution> = None;
+        let mut best: Option<OcpSolution> = None;
         for mut solution in solutions {
             self.attempts.append(&mut solution.attempts);
             let is_better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
@@ -170,7 +171,7 @@ impl<'a> Search<'a> {
     }
 
     /// The asked grid, solved from the state held at the start.
-    fn solved_from_constant_guess(&mut self) -> Result<Solution, OcpError> {
+    fn solved_from_constant_guess(&mut self) -> Result<OcpSolution, OcpError> {
         let guess = self.model.initial_guesses(self.scenario, self.grid.steps()).constant();
         let settings = settings::from_constant_guess(self.scenario);
         let on_iteration = stoppable(self.on_iteration, &self.stop);
@@ -180,7 +181,7 @@ impl<'a> Search<'a> {
     }
 
     /// The coarse solution carried to the asked grid and form; none if that fails on the way.
-    fn refined(&mut self, coarse: Solution) -> Result<Option<Solution>, OcpError> {
+    fn refined(&mut self, coarse: OcpSolution) -> Result<Option<OcpSolution>, OcpError> {
         let mut meshes = grids::between(coarse.controls.len(), self.grid.steps());
         let mut start = coarse;
         if self.ranking_model.is_some() {
@@ -201,7 +202,7 @@ impl<'a> Search<'a> {
     }
 
     /// A solution of the ranking model, refined to `grid` and solved there in the asked form.
-    fn in_asked_form(&mut self, grid: Grid, start: Solution) -> Result<Solution, OcpError> {
+    fn in_asked_form(&mut self, grid: Grid, start: OcpSolution) -> Result<OcpSolution, OcpError> {
         let Some(ranking_model) = &self.ranking_model else { return Ok(start) };
         let settings = settings::intermediate(self.scenario);
         let on_iteration = stoppable(self.on_iteration, &self.stop);

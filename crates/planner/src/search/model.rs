@@ -1,6 +1,6 @@
 use righting_ocp::{
-    Control, Curvature, Grid, Guess, MultipleShooting, OcpError, Samples, Settings, Solution,
-    StageFunctions, Start, refine,
+    Control, Curvature, Grid, InitialGuess, MeshRefinement, MultipleShooting, OcpError,
+    OcpSolution, OcpStart, ReducedHessian, Samples, Settings, StageFunctions,
 };
 use righting_results::solution::IterationRecord;
 use righting_scenario::file::Formulation;
@@ -36,42 +36,48 @@ impl Model {
     pub(super) fn solve(
         &self,
         grid: Grid,
-        guess: Guess,
+        guess: InitialGuess,
         settings: &Settings,
         mut on_iteration: impl FnMut(IterationRecord) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         let mut program = MultipleShooting::new(&self.functions, grid, &self.initial)?;
-        program.solve(&Start::Guess(guess), settings, |iteration| on_iteration(record(iteration)))
+        program
+            .solve(&OcpStart::Guess(guess), settings, |iteration| on_iteration(record(iteration)))
     }
 
     pub(super) fn refine(
         &self,
         grid: Grid,
         between: &[usize],
-        coarse: Solution,
+        coarse: OcpSolution,
         settings: &Settings,
         mut on_iteration: impl FnMut(IterationRecord) -> Control,
-    ) -> Result<Solution, OcpError> {
+    ) -> Result<OcpSolution, OcpError> {
         let on_iteration = |iteration: &righting_ocp::Iteration| on_iteration(record(iteration));
-        let initial = &self.initial;
-        refine(&self.functions, grid, between, initial, coarse.point, settings, on_iteration)
+        let Self { functions, initial, .. } = self;
+        MeshRefinement { functions, initial, grid, between, settings }
+            .refine(coarse.point, on_iteration)
     }
 
     /// How the Lagrangian curves at a solution on `grid`.
-    pub(super) fn curvature(&self, grid: Grid, solution: &Solution) -> Result<Curvature, OcpError> {
-        if solution.curves_upwards {
-            return Ok(Curvature::Upward);
+    pub(super) fn curvature(
+        &self,
+        grid: Grid,
+        solution: &OcpSolution,
+    ) -> Result<Curvature, OcpError> {
+        if solution.reduced_hessian == Some(ReducedHessian::PositiveDefinite) {
+            return Ok(Curvature::Positive);
         }
         MultipleShooting::new(&self.functions, grid, &self.initial)?.curvature(&solution.point)
     }
 
     /// The motion of a solution in another model's form, as a guess for this one.
-    pub(super) fn guess_from(&self, other: &Model, solution: &Solution) -> Guess {
+    pub(super) fn guess_from(&self, other: &Model, solution: &OcpSolution) -> InitialGuess {
         let mut states = Samples::new(self.coordinates.dimension());
         for row in solution.states.rows() {
             let state = other.coordinates.free_floating_state(row);
             states.push(&self.coordinates.of_free_floating_state(&state));
         }
-        Guess { states, controls: solution.controls.clone() }
+        InitialGuess { states, controls: solution.controls.clone() }
     }
 }

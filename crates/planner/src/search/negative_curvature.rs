@@ -1,6 +1,6 @@
 //! Stationary points that are no minimum, and the direction of negative curvature that leads out.
 
-use righting_ocp::{Curvature, Guess, OcpError, Samples, Settings, Solution};
+use righting_ocp::{Curvature, InitialGuess, OcpError, OcpSolution, Samples, Settings};
 
 use super::batch::Batch;
 use super::{Search, grids, portfolio, settings};
@@ -21,15 +21,15 @@ impl Search<'_> {
     /// was none.
     pub(super) fn leave_saddle(
         &mut self,
-        solution: Solution,
-    ) -> Result<(Solution, bool), OcpError> {
+        solution: OcpSolution,
+    ) -> Result<(OcpSolution, bool), OcpError> {
         if !solution.status.is_success() {
             return Ok((solution, true));
         }
         let direction = match self.model.curvature(self.grid, &solution)? {
-            Curvature::Upward => return Ok((solution, true)),
-            Curvature::Downward { controls } => Some(controls),
-            Curvature::Flat => None,
+            Curvature::Positive => return Ok((solution, true)),
+            Curvature::Negative { direction } => Some(direction),
+            Curvature::Zero => None,
         };
         for round in 0..ROUNDS {
             let direction = direction.as_ref().filter(|_| round == 0);
@@ -41,7 +41,7 @@ impl Search<'_> {
                 }
                 if let Some(found) = self.refined(start)?
                     && found.objective < solution.objective
-                    && self.model.curvature(self.grid, &found)? == Curvature::Upward
+                    && self.model.curvature(self.grid, &found)? == Curvature::Positive
                 {
                     self.notes.push(format!(
                         "left a stationary point that is no minimum (objective {:.6e}) by moving \
@@ -63,16 +63,16 @@ impl Search<'_> {
     /// Solutions on the coarse grid with a smaller objective.
     fn better_coarse_solutions(
         &mut self,
-        saddle: &Solution,
+        saddle: &OcpSolution,
         direction: Option<&Samples>,
         first: usize,
-    ) -> Result<Vec<Solution>, OcpError> {
+    ) -> Result<Vec<OcpSolution>, OcpError> {
         let grid = grids::coarse(self.scenario, &self.grid)?;
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let guesses = model.initial_guesses(self.scenario, grid.steps());
         let cold = settings::coarse(self.scenario);
         let others = portfolio::guesses_beside_saddle(self.scenario, &guesses, ROUNDS * GUESSES);
-        let starts: Vec<(Guess, Settings)> = direction
+        let starts: Vec<(InitialGuess, Settings)> = direction
             .into_iter()
             .flat_map(|direction| {
                 [1.0, -1.0].map(|sign| displaced(&guesses, saddle, direction, sign))
@@ -85,7 +85,7 @@ impl Search<'_> {
         for solution in &mut solutions {
             self.attempts.append(&mut solution.attempts);
         }
-        let is_better = |solution: &Solution| {
+        let is_better = |solution: &OcpSolution| {
             solution.status.is_success() && solution.objective < saddle.objective
         };
         Ok(solutions.into_iter().filter(is_better).collect())
@@ -95,10 +95,10 @@ impl Search<'_> {
 /// The motion of a plan with its controls changed along `direction`, one way or the other.
 fn displaced(
     guesses: &InitialGuesses<'_>,
-    plan: &Solution,
+    plan: &OcpSolution,
     direction: &Samples,
     sign: f64,
-) -> Guess {
+) -> InitialGuess {
     let mut guess = guesses.constant();
     let steps = guess.controls.len();
     let change = averaged(direction, steps);

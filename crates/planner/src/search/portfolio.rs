@@ -1,6 +1,6 @@
 //! Which initial guesses are ranked.
 
-use righting_ocp::Guess;
+use righting_ocp::InitialGuess;
 use righting_scenario::file::{self, LowDiscrepancyStarts, NamedGuess};
 use righting_scenario::scenario::{MAX_STARTS, Maneuver, Scenario};
 
@@ -21,7 +21,10 @@ pub(super) fn is_ranked(scenario: &Scenario) -> bool {
 }
 
 /// The guesses to rank; none if nothing is ranked.
-pub(super) fn ranked_guesses(scenario: &Scenario, guesses: &InitialGuesses<'_>) -> Vec<Guess> {
+pub(super) fn ranked_guesses(
+    scenario: &Scenario,
+    guesses: &InitialGuesses<'_>,
+) -> Vec<InitialGuess> {
     let count = count(scenario);
     if count == 0 {
         return Vec::new();
@@ -53,7 +56,7 @@ pub(super) fn guesses_beside_saddle(
     scenario: &Scenario,
     guesses: &InitialGuesses<'_>,
     count: usize,
-) -> Vec<Guess> {
+) -> Vec<InitialGuess> {
     match scenario.maneuver() {
         Maneuver::Detumble => guesses.least_final_rate(SCREENED_GUESSES, count),
         Maneuver::Slew(_) => {

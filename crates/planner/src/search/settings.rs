@@ -1,6 +1,6 @@
 //! How the optimizer is set for each kind of solve.
 
-use righting_ocp::{LinearSolver, Optimizer, Options, Settings};
+use righting_ocp::{LinearSolverChoice, Optimizer, Options, Settings};
 use righting_scenario::file::{self, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
@@ -87,9 +87,9 @@ fn plain(scenario: &Scenario) -> Settings {
             file::Optimizer::Interior => Optimizer::Interior,
         },
         linear_solver: match solver.linear_solver {
-            file::LinearSolver::Auto => LinearSolver::Auto,
-            file::LinearSolver::Mumps => LinearSolver::Mumps,
-            file::LinearSolver::Stage => LinearSolver::Stage,
+            file::LinearSolverChoice::Auto => LinearSolverChoice::Auto,
+            file::LinearSolverChoice::Mumps => LinearSolverChoice::Mumps,
+            file::LinearSolverChoice::Stage => LinearSolverChoice::Stage,
         },
         ..Settings::default()
     }

@@ -1,6 +1,6 @@
 //! A made-up result, smooth and within its limits but for what a test changes.
 
-use righting_results::{Interval, Node, Solution, Trajectory};
+use righting_results::{ControlInterval, Node, Solution, Trajectory};
 
 /// A result of a slew or a detumble with `joints` joints on `steps` intervals of 50 ms.
 pub fn result(kind: &str, joints: usize, steps: usize) -> (Solution, Trajectory) {
@@ -75,7 +75,7 @@ fn trajectory(joints: usize, steps: usize) -> Trajectory {
             power_w: 1.0,
         }
     });
-    let intervals = (0..steps).map(|k| Interval {
+    let intervals = (0..steps).map(|k| ControlInterval {
         joint_accelerations_rad_s2: (0..joints)
             .map(|i| -0.01 * (6.0 * k as f64 / steps as f64 + i as f64).sin())
             .collect(),

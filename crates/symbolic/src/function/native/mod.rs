@@ -2,8 +2,8 @@
 //!
 //! Straight-line code for one vector of points, a tape register a memory slot. For the chain of
 //! `examples/chain` it completes 1.4 arithmetic operations a cycle of the two that the machine could
-//! start, and is over twenty times as fast as the interpreter; encoding takes about 50 ns an
-//! instruction.
+//! start, and is over twenty times as fast as the interpreter. Making it takes 27 ns an instruction;
+//! with the encoder of iced-x86, whose decoder checks ours, 67 ns.
 #![expect(unsafe_code, reason = "calls generated code")]
 
 mod assembler;

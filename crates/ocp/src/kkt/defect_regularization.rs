@@ -9,7 +9,7 @@ use super::lanes::{AlignedVec, add_rows, reset, vectors, vectors_mut, zeros};
 
 /// Elimination of next state and defect multiplier.
 #[derive(Debug, Default)]
-pub(super) struct Regularization {
+pub(super) struct DefectRegularization {
     /// √Δ of the scaled defect rows.
     roots: Vec<f64>,
     /// S eliminated from `[[S, √Δ P], [P √Δ, P]]`; trailing are the states, then the unknowns
@@ -19,19 +19,19 @@ pub(super) struct Regularization {
 
 /// Scratch of the factorisation.
 #[derive(Debug)]
-pub(super) struct RegularizationWorkspace {
+pub(super) struct DefectRegularizationWorkspace {
     matrix: AlignedVec,
     scaled: AlignedVec,
     scales: Vec<f64>,
 }
 
-impl Default for RegularizationWorkspace {
+impl Default for DefectRegularizationWorkspace {
     fn default() -> Self {
         Self { matrix: zeros(0), scaled: zeros(0), scales: Vec::new() }
     }
 }
 
-impl Regularization {
+impl DefectRegularization {
     /// Sets √Δ from the defect rows' diagonals and scales.
     pub fn set_roots(&mut self, diagonals: &[f64], scales: &[f64]) -> Result<(), Breakdown> {
         self.roots.clear();
@@ -50,7 +50,7 @@ impl Regularization {
     pub fn factor<S: Simd>(
         &mut self,
         simd: S,
-        work: &mut RegularizationWorkspace,
+        work: &mut DefectRegularizationWorkspace,
         value: &mut [f64],
         delayed: &mut Delayed,
         tolerance: f64,

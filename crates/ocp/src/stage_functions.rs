@@ -1,106 +1,12 @@
-use righting_symbolic::{Backend, Expr, Function, SparseMatrix, hessian_lower, jacobian};
+use righting_symbolic::{Backend, Expr, Function};
 
-use crate::block::lanes;
+use crate::component_bounds::ComponentBounds;
+use crate::control_problem::ControlProblem;
 use crate::error::OcpError;
+use crate::node_function::NodeFunction;
 use crate::passive::active_states;
-use crate::problem::{ControlProblem, Interval};
 use crate::rk4::STAGES;
-use crate::step::StepFunctions;
-
-/// A matrix output of a compiled function: its structure, the entries that are constant, and where
-/// the values that the function computes belong.
-#[derive(Debug, Clone)]
-pub(crate) struct MatrixOutput {
-    /// Row and column of each structural entry, sorted by row, then by column.
-    pub(crate) entries: Vec<(usize, usize)>,
-    /// The constant of each entry, `None` where the function computes it.
-    pub(crate) constants: Vec<Option<f64>>,
-}
-
-impl MatrixOutput {
-    pub(crate) fn of(matrix: &SparseMatrix) -> Self {
-        Self {
-            entries: matrix.sparsity().iter().collect(),
-            constants: matrix.values.iter().map(|value| value.as_constant()).collect(),
-        }
-    }
-
-    /// Row, column and value of every entry at one point: the constants, and what the function has
-    /// computed in one lane of its output.
-    pub(crate) fn at_lane<'a>(
-        &'a self,
-        computed: &'a [f64],
-        lane: usize,
-    ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-        let mut varying = 0;
-        self.entries.iter().zip(&self.constants).map(move |(&(row, column), constant)| {
-            let value = constant.unwrap_or_else(|| {
-                varying += 1;
-                lanes(computed, varying - 1)[lane]
-            });
-            (row, column, value)
-        })
-    }
-
-    /// How many values the function computes.
-    pub(crate) fn varying(&self) -> usize {
-        self.constants.iter().filter(|constant| constant.is_none()).count()
-    }
-}
-
-/// The values of a matrix that are not constants.
-pub(crate) fn varying(matrix: &SparseMatrix) -> Vec<Expr> {
-    matrix.values.iter().copied().filter(|value| value.as_constant().is_none()).collect()
-}
-
-/// A function of one node (or step) with its gradient or Jacobian, and the Hessian of its weighted
-/// sum.
-#[derive(Debug, Clone)]
-pub(crate) struct NodeFunction {
-    /// Values and first derivatives: ports `value`, `jacobian`.
-    pub(crate) first: Function,
-    /// Values alone: port `value`.
-    pub(crate) value: Function,
-    /// Hessian of Σ weight · value: port `hessian`; the weights are the last input.
-    pub(crate) second: Function,
-    pub(crate) jacobian: MatrixOutput,
-    pub(crate) hessian: MatrixOutput,
-}
-
-impl NodeFunction {
-    fn compile(name: &str, inputs: &[(&str, &[Expr])], values: &[Expr]) -> Result<Self, OcpError> {
-        let variables: Vec<Expr> =
-            inputs.iter().flat_map(|(_, port)| port.iter().copied()).collect();
-        let weights = Expr::symbols("weight", values.len());
-        let weighted = values
-            .iter()
-            .zip(&weights)
-            .fold(Expr::constant(0.0), |sum, (&value, &weight)| sum + weight * value);
-        let first = jacobian(values, &variables);
-        let second = hessian_lower(weighted, &variables);
-        let port = |suffix: &str| {
-            let builder = Function::builder(&format!("{name}_{suffix}"));
-            inputs.iter().fold(builder, |builder, (name, port)| builder.input(name, port))
-        };
-        Ok(Self {
-            value: port("value").output("value", values).build()?,
-            first: port("first")
-                .output("value", values)
-                .output("jacobian", &varying(&first))
-                .build()?,
-            second: port("second")
-                .input("weight", &weights)
-                .output("hessian", &varying(&second))
-                .build()?,
-            jacobian: MatrixOutput::of(&first),
-            hessian: MatrixOutput::of(&second),
-        })
-    }
-
-    fn functions_mut(&mut self) -> [&mut Function; 3] {
-        [&mut self.first, &mut self.value, &mut self.second]
-    }
-}
+use crate::step_functions::StepFunctions;
 
 /// Everything about a [`ControlProblem`] that does not depend on the grid, the start or the bounds'
 /// values: traced once, differentiated exactly, compiled for batches of stages.
@@ -119,10 +25,10 @@ pub struct StageFunctions {
     pub(crate) terminal_cost: NodeFunction,
     pub(crate) path: NodeFunction,
     pub(crate) terminal: NodeFunction,
-    pub(crate) state_bounds: Interval,
-    pub(crate) control_bounds: Interval,
-    pub(crate) path_bounds: Interval,
-    pub(crate) terminal_bounds: Interval,
+    pub(crate) state_bounds: ComponentBounds,
+    pub(crate) control_bounds: ComponentBounds,
+    pub(crate) path_bounds: ComponentBounds,
+    pub(crate) terminal_bounds: ComponentBounds,
 }
 
 impl StageFunctions {
@@ -194,7 +100,7 @@ impl StageFunctions {
             terminal_cost: on_state("terminal_cost", &[terminal_cost])?,
             path: on_state("path", &path)?,
             terminal: on_state("terminal", &terminal)?,
-            state_bounds: Interval::new(
+            state_bounds: ComponentBounds::new(
                 active.iter().map(|&i| problem.state_bounds.lower[i]).collect(),
                 active.iter().map(|&i| problem.state_bounds.upper[i]).collect(),
             ),

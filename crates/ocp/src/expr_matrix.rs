@@ -1,6 +1,6 @@
 use righting_symbolic::{Expr, SparseMatrix, Sparsity};
 
-use crate::stage::MatrixOutput;
+use crate::matrix_output::MatrixOutput;
 
 /// A small dense matrix of expressions whose products skip the structural zeros.
 #[derive(Clone)]

@@ -7,12 +7,12 @@ use crate::error::{Error, FieldError, FieldProblem, Mismatch};
 
 /// A field of a file, to complain about.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct Location {
     file: PathBuf,
     path: String,
 }
 
-impl Place {
+impl Location {
     /// The whole of a file.
     pub fn root(file: &Path) -> Self {
         Self { file: file.to_owned(), path: String::new() }
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn paths_and_bounds_read_well() {
-        let root = Place::root(Path::new("arm.json"));
+        let root = Location::root(Path::new("arm.json"));
         let place = root.key("links").index(3).key("mass_kg");
         let error = place.within(-1.0, Bounds::Between(0.0, 1e9)).unwrap_err();
         assert_eq!(

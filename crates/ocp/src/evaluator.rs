@@ -1,10 +1,12 @@
 use righting_symbolic::{LANES, Workspace};
 
 use crate::block::Block;
-use crate::rk4::{NODE, STAGES, WEIGHT};
-use crate::stage::{NodeFunction, StageFunctions};
+use crate::node_function::NodeFunction;
+use crate::rk4::{RungeKutta4, STAGES};
+use crate::stage_functions::StageFunctions;
+use crate::stage_store::StageStoreBlock;
 
-/// Ports of [`StepFunctions`](crate::step::StepFunctions), in order.
+/// Ports of [`StepFunctions`](crate::step_functions::StepFunctions), in order.
 const STEP_H: usize = 0;
 const STEP_JACOBIANS: usize = 1;
 const STEP_EXTRA: usize = STEP_JACOBIANS + STAGES;
@@ -26,68 +28,8 @@ impl NodeWorkspace {
     }
 }
 
-/// What the Hessian of a step reuses from its Jacobian: the stage points y_1…y_4 and the varying
-/// entries of J_1…J_4, lanes side by side.
-pub(crate) struct StageStore {
-    points: Vec<f64>,
-    jacobians: Vec<f64>,
-    point_width: usize,
-    jacobian_width: usize,
-}
-
-impl StageStore {
-    pub(crate) fn new(functions: &StageFunctions, blocks: usize) -> Self {
-        let point_width = functions.states * LANES;
-        let jacobian_width = functions.ode.jacobian.varying() * LANES;
-        Self {
-            points: vec![0.0; blocks * STAGES * point_width],
-            jacobians: vec![0.0; blocks * STAGES * jacobian_width],
-            point_width,
-            jacobian_width,
-        }
-    }
-
-    /// Points and Jacobians of the stages of each block.
-    pub(crate) fn blocks_mut(&mut self) -> impl Iterator<Item = StageStoreBlock<'_>> {
-        let (point_width, jacobian_width) = (self.point_width, self.jacobian_width);
-        // A state-independent ẋ has no varying Jacobian: its chunks are empty, not missing.
-        let mut jacobians = self.jacobians.as_mut_slice();
-        self.points.chunks_exact_mut(STAGES * point_width).map(move |points| {
-            let (head, tail) = std::mem::take(&mut jacobians).split_at_mut(STAGES * jacobian_width);
-            jacobians = tail;
-            StageStoreBlock { points, jacobians: head, point_width, jacobian_width }
-        })
-    }
-}
-
-/// The part of a [`StageStore`] that belongs to one block.
-pub(crate) struct StageStoreBlock<'a> {
-    points: &'a mut [f64],
-    jacobians: &'a mut [f64],
-    point_width: usize,
-    jacobian_width: usize,
-}
-
-impl StageStoreBlock<'_> {
-    fn point(&self, stage: usize) -> &[f64] {
-        &self.points[stage * self.point_width..][..self.point_width]
-    }
-
-    fn point_mut(&mut self, stage: usize) -> &mut [f64] {
-        &mut self.points[stage * self.point_width..][..self.point_width]
-    }
-
-    fn jacobian(&self, stage: usize) -> &[f64] {
-        &self.jacobians[stage * self.jacobian_width..][..self.jacobian_width]
-    }
-
-    fn jacobian_mut(&mut self, stage: usize) -> &mut [f64] {
-        &mut self.jacobians[stage * self.jacobian_width..][..self.jacobian_width]
-    }
-}
-
 /// Evaluates blocks of steps. One thread owns it; the functions are shared.
-pub(crate) struct Worker {
+pub(crate) struct Evaluator {
     pub(crate) ode: NodeWorkspace,
     pub(crate) running: NodeWorkspace,
     pub(crate) path: NodeWorkspace,
@@ -97,11 +39,10 @@ pub(crate) struct Worker {
     step_multipliers: Workspace,
     step_second: Workspace,
     states: Vec<f64>,
-    rates: Vec<f64>,
-    next: Vec<f64>,
+    method: RungeKutta4,
 }
 
-impl Worker {
+impl Evaluator {
     pub(crate) fn new(functions: &StageFunctions) -> Self {
         Self {
             ode: NodeWorkspace::new(&functions.ode),
@@ -113,8 +54,7 @@ impl Worker {
             step_multipliers: functions.step.multipliers.workspace(),
             step_second: functions.step.second.workspace(),
             states: vec![0.0; functions.states * LANES],
-            rates: vec![0.0; functions.states * LANES],
-            next: vec![0.0; functions.states * LANES],
+            method: RungeKutta4::new(functions.states * LANES),
         }
     }
 
@@ -130,14 +70,11 @@ impl Worker {
         let workspace = &mut self.ode.value;
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
-        self.next.copy_from_slice(&self.states);
-        for (node, weight) in NODE.into_iter().zip(WEIGHT) {
-            advance(workspace, &self.states, node * h, &self.rates);
+        self.method.step(h, &self.states, |stage| {
+            stage.write_point(workspace.input_mut(0));
             functions.ode.value.evaluate_block(workspace);
-            self.rates.copy_from_slice(workspace.output(0));
-            add_scaled(&mut self.next, weight * h, &self.rates);
-        }
-        &self.next
+            stage.set_rates(workspace.output(0));
+        })
     }
 
     /// The varying entries of −∂F/∂(x, u) of a block, one row of lanes each.
@@ -154,13 +91,13 @@ impl Worker {
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
         self.step_first.input_mut(STEP_H).fill(h);
-        for (stage, node) in NODE.into_iter().enumerate() {
-            advance(workspace, &self.states, node * h, &self.rates);
-            store.point_mut(stage).copy_from_slice(workspace.input_mut(0));
+        self.method.stages(h, &self.states, |stage| {
+            stage.write_point(workspace.input_mut(0));
+            store.point_mut(stage.index()).copy_from_slice(workspace.input_mut(0));
             functions.ode.first.evaluate_block(workspace);
-            self.rates.copy_from_slice(workspace.output(0));
-            store.jacobian_mut(stage).copy_from_slice(workspace.output(1));
-        }
+            stage.set_rates(workspace.output(0));
+            store.jacobian_mut(stage.index()).copy_from_slice(workspace.output(1));
+        });
         load_jacobians(&mut self.step_first, store);
         functions.step.first.evaluate_block(&mut self.step_first);
         self.step_first.output(0)
@@ -198,21 +135,6 @@ impl Worker {
         }
         functions.step.second.evaluate_block(compose);
         compose.output(0)
-    }
-}
-
-/// Sets the state port to `states + scale · rates`.
-fn advance(workspace: &mut Workspace, states: &[f64], scale: f64, rates: &[f64]) {
-    let point = workspace.input_mut(0);
-    point.copy_from_slice(states);
-    if scale != 0.0 {
-        add_scaled(point, scale, rates);
-    }
-}
-
-fn add_scaled(sum: &mut [f64], scale: f64, terms: &[f64]) {
-    for (sum, &term) in sum.iter_mut().zip(terms) {
-        *sum += scale * term;
     }
 }
 

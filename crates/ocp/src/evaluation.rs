@@ -1,34 +1,18 @@
+//! The functions and derivatives of the nonlinear program, block by block of stages.
+
 use righting_nlp::{Bounds, EvaluationError, Problem, TripletStructure};
 
 use crate::block::{Block, lanes};
-use crate::error::OcpError;
-use crate::grid::Grid;
-use crate::layout::{Dimensions, Layout};
-use crate::stage::{NodeFunction, StageFunctions};
-use crate::structure::{HessianStructure, JacobianStructure, Scatter};
-use crate::worker::{NodeWorkspace, StageStore, Worker};
-
-/// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`Layout`]
-/// for the order of its variables and constraints.
-pub struct MultipleShooting<'f> {
-    functions: &'f StageFunctions,
-    grid: Grid,
-    layout: Layout,
-    /// x_0, passive states left out.
-    initial: Vec<f64>,
-    full_initial: Vec<f64>,
-    jacobian: JacobianStructure,
-    hessian: HessianStructure,
-    worker: Worker,
-    store: StageStore,
-    /// The decision vector at which `store` was filled.
-    stored_at: Vec<f64>,
-}
+use crate::decision_layout::DecisionLayout;
+use crate::evaluator::NodeWorkspace;
+use crate::multiple_shooting::MultipleShooting;
+use crate::node_function::NodeFunction;
+use crate::structure::Scatter;
 
 /// Rows of a decision or constraint vector by step and node.
 #[derive(Clone, Copy)]
 struct Rows<'a> {
-    layout: Layout,
+    layout: DecisionLayout,
     initial: &'a [f64],
     vector: &'a [f64],
 }
@@ -46,84 +30,14 @@ impl<'a> Rows<'a> {
     }
 }
 
-impl<'f> MultipleShooting<'f> {
-    /// Transcribes the problem behind `functions` on `grid` from the state `initial` (all states of
-    /// the problem, passive ones too).
-    ///
-    /// # Errors
-    /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when `initial` does not fit.
-    pub fn new(
-        functions: &'f StageFunctions,
-        grid: Grid,
-        initial: &[f64],
-    ) -> Result<Self, OcpError> {
-        if initial.len() != functions.all_states {
-            return Err(OcpError::Dimension {
-                what: "initial state",
-                expected: functions.all_states,
-                found: initial.len(),
-            });
-        }
-        if let Some((index, &value)) = initial.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(OcpError::NotFinite { what: "initial state", index, value });
-        }
-        let dimensions = Dimensions {
-            states: functions.states,
-            controls: functions.controls,
-            path: functions.path_bounds.len(),
-            terminal: functions.terminal_bounds.len(),
-            steps: grid.steps(),
-        };
-        Ok(Self {
-            functions,
-            grid,
-            layout: Layout::new(dimensions),
-            initial: functions.active.iter().map(|&i| initial[i]).collect(),
-            full_initial: initial.to_vec(),
-            jacobian: JacobianStructure::new(functions, grid.steps()),
-            hessian: HessianStructure::new(functions, grid.steps()),
-            worker: Worker::new(functions),
-            store: StageStore::new(functions, Block::count_for(grid.steps())),
-            stored_at: Vec::new(),
-        })
-    }
-
-    /// Where everything lives in the vectors.
-    pub fn layout(&self) -> Layout {
-        self.layout
-    }
-
-    /// The grid it was transcribed on.
-    pub fn grid(&self) -> Grid {
-        self.grid
-    }
-
-    /// The functions it evaluates.
-    pub fn functions(&self) -> &'f StageFunctions {
-        self.functions
-    }
-
-    /// x_0 without the passive states.
-    pub fn initial_state(&self) -> &[f64] {
-        &self.initial
-    }
-
-    /// x_0 with every state of the problem.
-    pub fn full_initial_state(&self) -> &[f64] {
-        &self.full_initial
-    }
-
-    fn steps(&self) -> usize {
-        self.grid.steps()
-    }
-
+impl MultipleShooting<'_> {
     /// Evaluates ∂F/∂(x, u) of all steps at `z` into `values` (if any) and fills the store.
     fn evaluate_steps(&mut self, z: &[f64], mut values: Option<&mut [f64]>) {
-        let Self { functions, layout, initial, jacobian, worker, store, grid, .. } = self;
+        let Self { functions, layout, initial, jacobian, evaluator, store, grid, .. } = self;
         let rows = Rows { layout: *layout, initial, vector: z };
         let blocks = Block::cover(grid.steps());
         for (block, mut stored) in blocks.zip(store.blocks_mut()) {
-            let computed = worker.step_jacobian(
+            let computed = evaluator.step_jacobian(
                 functions,
                 block,
                 grid.step_s(),
@@ -209,7 +123,7 @@ impl Problem for MultipleShooting<'_> {
         let steps = self.steps();
         let rows = Rows { layout: self.layout, initial: &self.initial, vector: z };
         let function = &self.functions.running.value;
-        let workspace = &mut self.worker.running.value;
+        let workspace = &mut self.evaluator.running.value;
         let mut running = 0.0;
         for block in Block::cover(steps) {
             block.load(workspace.input_mut(0), self.functions.states, |k| rows.state(k));
@@ -218,7 +132,7 @@ impl Problem for MultipleShooting<'_> {
             let costs = lanes(workspace.output(0), 0);
             running += block.items().map(|(lane, _)| costs[lane]).sum::<f64>();
         }
-        let workspace = &mut self.worker.terminal_cost.value;
+        let workspace = &mut self.evaluator.terminal_cost.value;
         load_terminal(workspace, rows.state(steps));
         self.functions.terminal_cost.value.evaluate_block(workspace);
         Ok(self.grid.running_weight() * running + workspace.output(0)[0])
@@ -235,7 +149,7 @@ impl Problem for MultipleShooting<'_> {
         let rows = Rows { layout, initial: &self.initial, vector: z };
         gradient.fill(0.0);
         let running = &self.functions.running;
-        let workspace = &mut self.worker.running.first;
+        let workspace = &mut self.evaluator.running.first;
         for block in Block::cover(steps) {
             block.load(workspace.input_mut(0), states, |k| rows.state(k));
             block.load(workspace.input_mut(1), self.functions.controls, |k| rows.control(k));
@@ -253,7 +167,7 @@ impl Problem for MultipleShooting<'_> {
             }
         }
         let terminal = &self.functions.terminal_cost;
-        let workspace = &mut self.worker.terminal_cost.first;
+        let workspace = &mut self.evaluator.terminal_cost.first;
         load_terminal(workspace, rows.state(steps));
         terminal.first.evaluate_block(workspace);
         for (_, column, value) in terminal.jacobian.at_lane(workspace.output(1), 0) {
@@ -270,7 +184,7 @@ impl Problem for MultipleShooting<'_> {
     ) -> Result<(), EvaluationError> {
         let (steps, functions, layout) = (self.steps(), self.functions, self.layout);
         let rows = Rows { layout, initial: &self.initial, vector: z };
-        let path = &mut self.worker.path.value;
+        let path = &mut self.evaluator.path.value;
         for block in Block::cover(steps) {
             block.load(path.input_mut(0), functions.states, |k| rows.state(k + 1));
             functions.path.value.evaluate_block(path);
@@ -282,7 +196,7 @@ impl Problem for MultipleShooting<'_> {
         }
         for block in Block::cover(steps) {
             let h = self.grid.step_s();
-            let reached = self.worker.step_values(
+            let reached = self.evaluator.step_values(
                 functions,
                 block,
                 h,
@@ -295,7 +209,7 @@ impl Problem for MultipleShooting<'_> {
                 }
             }
         }
-        let terminal = &mut self.worker.terminal.value;
+        let terminal = &mut self.evaluator.terminal.value;
         load_terminal(terminal, rows.state(steps));
         functions.terminal.value.evaluate_block(terminal);
         for (index, row) in layout.terminal().enumerate() {
@@ -312,13 +226,13 @@ impl Problem for MultipleShooting<'_> {
     ) -> Result<(), EvaluationError> {
         values.fill(0.0);
         self.evaluate_steps(z, Some(values));
-        let Self { functions, layout, initial, jacobian, worker, .. } = self;
+        let Self { functions, layout, initial, jacobian, evaluator, .. } = self;
         let steps = layout.dimensions().steps;
         let rows = Rows { layout: *layout, initial, vector: z };
         for block in Block::cover(steps) {
-            block.load(worker.path.first.input_mut(0), functions.states, |k| rows.state(k + 1));
-            functions.path.first.evaluate_block(&mut worker.path.first);
-            let computed = worker.path.first.output(1);
+            block.load(evaluator.path.first.input_mut(0), functions.states, |k| rows.state(k + 1));
+            functions.path.first.evaluate_block(&mut evaluator.path.first);
+            let computed = evaluator.path.first.output(1);
             for (lane, step) in block.items() {
                 let entry = |slot| jacobian.entry(step, slot);
                 scatter(values, &jacobian.path, entry, |index| lanes(computed, index)[lane]);
@@ -327,9 +241,9 @@ impl Problem for MultipleShooting<'_> {
                 }
             }
         }
-        load_terminal(&mut worker.terminal.first, rows.state(steps));
-        functions.terminal.first.evaluate_block(&mut worker.terminal.first);
-        let computed = worker.terminal.first.output(1);
+        load_terminal(&mut evaluator.terminal.first, rows.state(steps));
+        functions.terminal.first.evaluate_block(&mut evaluator.terminal.first);
+        let computed = evaluator.terminal.first.output(1);
         let entry = |slot| Some(jacobian.terminal_start() + slot);
         scatter(values, &jacobian.terminal, entry, |index| lanes(computed, index)[0]);
         Ok(())
@@ -348,13 +262,13 @@ impl Problem for MultipleShooting<'_> {
             self.evaluate_steps(z, None);
         }
         values.fill(0.0);
-        let Self { functions, layout, initial, hessian, worker, store, grid, .. } = self;
+        let Self { functions, layout, initial, hessian, evaluator, store, grid, .. } = self;
         let steps = grid.steps();
         let rows = Rows { layout: *layout, initial, vector: z };
         let running_factor = objective_factor * grid.running_weight();
         let blocks = Block::cover(steps);
         for (block, stored) in blocks.zip(store.blocks_mut()) {
-            let computed = worker.step_hessian(
+            let computed = evaluator.step_hessian(
                 functions,
                 block,
                 grid.step_s(),
@@ -367,7 +281,7 @@ impl Problem for MultipleShooting<'_> {
                 scatter(values, &hessian.step, entry, |index| lanes(computed, index)[lane]);
             }
 
-            let workspace = &mut worker.running.second;
+            let workspace = &mut evaluator.running.second;
             block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
             block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
             workspace.input_mut(2).fill(running_factor);
@@ -378,7 +292,7 @@ impl Problem for MultipleShooting<'_> {
                 scatter(values, &hessian.running, entry, |index| lanes(computed, index)[lane]);
             }
 
-            let workspace = &mut worker.path.second;
+            let workspace = &mut evaluator.path.second;
             block.load(workspace.input_mut(0), functions.states, |k| rows.state(k + 1));
             block.load(workspace.input_mut(1), functions.path_bounds.len(), |k| {
                 &multipliers[layout.path(k + 1)]
@@ -408,13 +322,13 @@ impl Problem for MultipleShooting<'_> {
         };
         add_terminal(
             &functions.terminal_cost,
-            &mut worker.terminal_cost,
+            &mut evaluator.terminal_cost,
             &hessian.terminal_cost,
             &[objective_factor],
         );
         add_terminal(
             &functions.terminal,
-            &mut worker.terminal,
+            &mut evaluator.terminal,
             &hessian.terminal,
             &multipliers[layout.terminal()],
         );

@@ -1,9 +1,11 @@
 use righting_symbolic::{Expr, Function};
 
 use crate::error::OcpError;
-use crate::matrix::ExprMatrix;
-use crate::rk4::{Composition, STAGES};
-use crate::stage::{MatrixOutput, NodeFunction, varying};
+use crate::expr_matrix::ExprMatrix;
+use crate::matrix_output::{MatrixOutput, varying};
+use crate::node_function::NodeFunction;
+use crate::rk4::STAGES;
+use crate::step_derivatives::StepDerivatives;
 
 /// Names of the ports that hold the derivatives at the four stage points.
 const JACOBIAN_PORTS: [&str; STAGES] = ["jacobian_1", "jacobian_2", "jacobian_3", "jacobian_4"];
@@ -38,7 +40,7 @@ impl StepFunctions {
             .iter()
             .map(|values| ExprMatrix::from_output(&ode.jacobian, values, states, size))
             .collect();
-        let composition = Composition::new(h, states, controls, jacobians);
+        let derivatives = StepDerivatives::new(h, states, controls, jacobians);
         let port = |name: &str| {
             let builder = Function::builder(name).input("h", &[h]);
             JACOBIAN_PORTS
@@ -47,13 +49,13 @@ impl StepFunctions {
                 .fold(builder, |builder, (name, values)| builder.input(name, values))
         };
 
-        let step_jacobian = composition.step_jacobian().negated().to_sparse();
+        let step_jacobian = derivatives.step_jacobian().negated().to_sparse();
         let first = port("step_first").output("jacobian", &varying(&step_jacobian)).build()?;
 
         let lambda = Expr::symbols("lambda", states);
         let multipliers = MULTIPLIER_PORTS
             .iter()
-            .zip(composition.stage_multipliers(&lambda))
+            .zip(derivatives.stage_multipliers(&lambda))
             .fold(port("step_multipliers").input("lambda", &lambda), |builder, (name, values)| {
                 builder.output(name, &values)
             })
@@ -64,7 +66,7 @@ impl StepFunctions {
             .iter()
             .map(|values| ExprMatrix::from_output(&ode.hessian, values, size, size).mirrored())
             .collect();
-        let step_hessian = composition.step_hessian(&hessians).to_sparse();
+        let step_hessian = derivatives.step_hessian(&hessians).to_sparse();
         let second = HESSIAN_PORTS
             .iter()
             .zip(&hessian_values)

@@ -1,65 +1,12 @@
 use righting_symbolic::Expr;
 
+use crate::component_bounds::ComponentBounds;
 use crate::error::OcpError;
 
 type StageMap = Box<dyn Fn(&[Expr], &[Expr]) -> Vec<Expr>>;
 type StageCost = Box<dyn Fn(&[Expr], &[Expr]) -> Expr>;
 type NodeMap = Box<dyn Fn(&[Expr]) -> Vec<Expr>>;
 type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
-
-/// A lower and an upper bound per component; infinities stand for "none".
-#[derive(Debug, Clone, PartialEq)]
-pub struct Interval {
-    /// Lower bounds.
-    pub lower: Vec<f64>,
-    /// Upper bounds.
-    pub upper: Vec<f64>,
-}
-
-impl Interval {
-    /// `lower ≤ · ≤ upper`.
-    pub fn new(lower: Vec<f64>, upper: Vec<f64>) -> Self {
-        Self { lower, upper }
-    }
-
-    /// No bound on any of `len` components.
-    pub fn unbounded(len: usize) -> Self {
-        Self { lower: vec![f64::NEG_INFINITY; len], upper: vec![f64::INFINITY; len] }
-    }
-
-    /// `|·| ≤ limit` for every component.
-    pub fn symmetric(limits: &[f64]) -> Self {
-        Self { lower: limits.iter().map(|l| -l).collect(), upper: limits.to_vec() }
-    }
-
-    /// How many components it bounds.
-    pub fn len(&self) -> usize {
-        self.lower.len()
-    }
-
-    /// Whether it bounds no component.
-    pub fn is_empty(&self) -> bool {
-        self.lower.is_empty()
-    }
-
-    pub(crate) fn bounds_component(&self, index: usize) -> bool {
-        self.lower[index].is_finite() || self.upper[index].is_finite()
-    }
-
-    fn check(&self, what: &'static str, expected: usize) -> Result<(), OcpError> {
-        for side in [&self.lower, &self.upper] {
-            if side.len() != expected {
-                return Err(OcpError::Dimension { what, expected, found: side.len() });
-            }
-        }
-        for (index, (&lower, &upper)) in self.lower.iter().zip(&self.upper).enumerate() {
-            if lower.is_nan() || upper.is_nan() || lower > upper {
-                return Err(OcpError::CrossedBounds { what, index, lower, upper });
-            }
-        }
-        Ok(())
-    }
-}
 
 /// An optimal control problem in continuous time, stated once for every grid:
 ///
@@ -79,11 +26,11 @@ pub struct ControlProblem {
     pub(crate) running_cost: StageCost,
     pub(crate) terminal_cost: NodeCost,
     pub(crate) path: NodeMap,
-    pub(crate) path_bounds: Interval,
+    pub(crate) path_bounds: ComponentBounds,
     pub(crate) terminal: NodeMap,
-    pub(crate) terminal_bounds: Interval,
-    pub(crate) state_bounds: Interval,
-    pub(crate) control_bounds: Interval,
+    pub(crate) terminal_bounds: ComponentBounds,
+    pub(crate) state_bounds: ComponentBounds,
+    pub(crate) control_bounds: ComponentBounds,
     pub(crate) keeps_passive_states: bool,
 }
 
@@ -102,32 +49,33 @@ impl ControlProblem {
             running_cost: Box::new(|_, _| Expr::constant(0.0)),
             terminal_cost: Box::new(|_| Expr::constant(0.0)),
             path: Box::new(|_| Vec::new()),
-            path_bounds: Interval::unbounded(0),
+            path_bounds: ComponentBounds::unbounded(0),
             terminal: Box::new(|_| Vec::new()),
-            terminal_bounds: Interval::unbounded(0),
-            state_bounds: Interval::unbounded(states),
-            control_bounds: Interval::unbounded(controls),
+            terminal_bounds: ComponentBounds::unbounded(0),
+            state_bounds: ComponentBounds::unbounded(states),
+            control_bounds: ComponentBounds::unbounded(controls),
             keeps_passive_states: false,
         }
     }
 
-    /// Adds `ℓ(x_k, u_k)` for every step. The sum carries no Δt: see
-    /// [`Grid::running_weight`](crate::Grid::running_weight) for the same problem on another grid.
+    /// Sets the cost `ℓ(x_k, u_k)` of every step, in place of an earlier one. The sum carries no Δt:
+    /// see [`Grid::running_weight`](crate::Grid::running_weight) for the same problem on another
+    /// grid.
     pub fn running_cost(mut self, cost: impl Fn(&[Expr], &[Expr]) -> Expr + 'static) -> Self {
         self.running_cost = Box::new(cost);
         self
     }
 
-    /// Adds `φ(x_N)`.
+    /// Sets the terminal cost `φ(x_N)`, in place of an earlier one.
     pub fn terminal_cost(mut self, cost: impl Fn(&[Expr]) -> Expr + 'static) -> Self {
         self.terminal_cost = Box::new(cost);
         self
     }
 
-    /// Constrains `c(x_k)` at every node after the first.
+    /// Constrains `c(x_k)` at every node after the first, in place of earlier path constraints.
     pub fn path_constraints(
         mut self,
-        bounds: Interval,
+        bounds: ComponentBounds,
         constraints: impl Fn(&[Expr]) -> Vec<Expr> + 'static,
     ) -> Self {
         self.path = Box::new(constraints);
@@ -135,10 +83,10 @@ impl ControlProblem {
         self
     }
 
-    /// Constrains `e(x_N)`.
+    /// Constrains `e(x_N)`, in place of earlier terminal constraints.
     pub fn terminal_constraints(
         mut self,
-        bounds: Interval,
+        bounds: ComponentBounds,
         constraints: impl Fn(&[Expr]) -> Vec<Expr> + 'static,
     ) -> Self {
         self.terminal = Box::new(constraints);
@@ -146,14 +94,14 @@ impl ControlProblem {
         self
     }
 
-    /// Bounds the states at every node after the first.
-    pub fn state_bounds(mut self, bounds: Interval) -> Self {
+    /// Sets the bounds of the states at every node after the first.
+    pub fn state_bounds(mut self, bounds: ComponentBounds) -> Self {
         self.state_bounds = bounds;
         self
     }
 
-    /// Bounds the controls of every step.
-    pub fn control_bounds(mut self, bounds: Interval) -> Self {
+    /// Sets the bounds of the controls of every step.
+    pub fn control_bounds(mut self, bounds: ComponentBounds) -> Self {
         self.control_bounds = bounds;
         self
     }

@@ -1,12 +1,13 @@
-use righting_nlp::{Iteration, Status, Timing};
+use righting_nlp::{Iteration, ReducedHessian, Status, Timing};
 
-use crate::point::Point;
+use crate::attempt::{Attempt, UsedLinearSolver};
+use crate::primal_dual_point::PrimalDualPoint;
 use crate::samples::Samples;
-use crate::solve::{Attempt, Optimizer, UsedLinearSolver};
+use crate::settings::Optimizer;
 
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]
-pub struct Solution {
+pub struct OcpSolution {
     /// How the optimizer ended.
     pub status: Status,
     /// The objective at the point.
@@ -21,20 +22,20 @@ pub struct Solution {
     pub linear_solver: UsedLinearSolver,
     /// Every attempt that led here, in order: those given up, then the one that this is.
     pub attempts: Vec<Attempt>,
-    /// Whether the solve itself found that the Lagrangian curves upwards here, as
-    /// [`MultipleShooting::curvature`](crate::MultipleShooting::curvature) does for any point.
-    pub curves_upwards: bool,
+    /// What the optimizer found of the reduced Hessian here, if it looked;
+    /// [`MultipleShooting::curvature`](crate::MultipleShooting::curvature) looks at any point.
+    pub reduced_hessian: Option<ReducedHessian>,
     /// All states of the problem at the nodes 0…N.
     pub states: Samples,
     /// The controls of the steps 0…N−1.
     pub controls: Samples,
     /// The point with its multipliers, for a warm start.
-    pub point: Point,
+    pub point: PrimalDualPoint,
     /// Where the time went.
     pub timing: Timing,
 }
 
-impl Solution {
+impl OcpSolution {
     /// Number of iterations; the start is not one.
     pub fn iterations(&self) -> usize {
         self.history.last().map_or(0, |last| last.iteration)

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 /// How many of what a transcribed problem has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Dimensions {
+pub struct ShootingDimensions {
     /// States per node, passive ones left out.
     pub states: usize,
     /// Controls per step.
@@ -23,18 +23,18 @@ pub struct Dimensions {
 /// g = [defect_0, c(x_1), defect_1, c(x_2), …, c(x_N), e(x_N)]
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Layout {
-    dimensions: Dimensions,
+pub struct DecisionLayout {
+    dimensions: ShootingDimensions,
 }
 
-impl Layout {
+impl DecisionLayout {
     /// The layout of a problem of these dimensions.
-    pub fn new(dimensions: Dimensions) -> Self {
+    pub fn new(dimensions: ShootingDimensions) -> Self {
         Self { dimensions }
     }
 
     /// The dimensions it was made for.
-    pub fn dimensions(&self) -> Dimensions {
+    pub fn dimensions(&self) -> ShootingDimensions {
         self.dimensions
     }
 
@@ -93,8 +93,9 @@ mod tests {
 
     #[test]
     fn the_parts_tile_both_vectors() {
-        let dimensions = Dimensions { states: 5, controls: 2, path: 3, terminal: 4, steps: 7 };
-        let layout = Layout::new(dimensions);
+        let dimensions =
+            ShootingDimensions { states: 5, controls: 2, path: 3, terminal: 4, steps: 7 };
+        let layout = DecisionLayout::new(dimensions);
         let mut variables = vec![0; layout.variables()];
         let mut rows = vec![0; layout.constraints()];
         for k in 0..dimensions.steps {

@@ -1,27 +1,17 @@
 use crate::error::OcpError;
-use crate::nlp::MultipleShooting;
-use crate::point::Point;
+use crate::multiple_shooting::MultipleShooting;
 use crate::samples::Samples;
-
-/// Where a solve starts.
-#[derive(Debug, Clone)]
-pub enum Start {
-    /// States and controls; the multipliers are estimated.
-    Guess(Guess),
-    /// A point with multipliers, from an earlier solve of a problem of the same size.
-    Warm(Point),
-}
 
 /// A trajectory to start from.
 #[derive(Debug, Clone)]
-pub struct Guess {
+pub struct InitialGuess {
     /// All states of the problem at the nodes 0…N; the first row is not used.
     pub states: Samples,
     /// The controls of the steps 0…N−1.
     pub controls: Samples,
 }
 
-impl Guess {
+impl InitialGuess {
     /// The state held at `state`, no control: the paper's initial guess.
     pub fn constant(state: &[f64], controls: usize, steps: usize) -> Self {
         Self {
@@ -36,7 +26,7 @@ impl MultipleShooting<'_> {
     ///
     /// # Errors
     /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when it does not fit the problem.
-    pub fn decision_vector(&self, guess: &Guess) -> Result<Vec<f64>, OcpError> {
+    pub fn decision_vector(&self, guess: &InitialGuess) -> Result<Vec<f64>, OcpError> {
         let (functions, steps) = (self.functions(), self.grid().steps());
         for (what, samples, width, rows) in [
             ("guessed states", &guess.states, functions.all_states, steps + 1),

@@ -1,11 +1,11 @@
-use crate::layout::Layout;
+use crate::decision_layout::DecisionLayout;
 use crate::samples::Samples;
 
 /// A primal–dual point of a transcribed problem: what a solve ends at and what the next one can
 /// start from.
 #[derive(Debug, Clone)]
-pub struct Point {
-    pub(crate) layout: Layout,
+pub struct PrimalDualPoint {
+    pub(crate) layout: DecisionLayout,
     /// The decision vector.
     pub(crate) z: Vec<f64>,
     /// Multipliers of the constraint vector.
@@ -16,7 +16,7 @@ pub struct Point {
     pub(crate) upper: Vec<f64>,
 }
 
-impl Point {
+impl PrimalDualPoint {
     /// Costate at the end of each step: the multipliers of x_{k+1} − F(x_k, u_k) = 0, one row a step.
     pub fn costates(&self) -> Samples {
         let dimensions = self.layout.dimensions();

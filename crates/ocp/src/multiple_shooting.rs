@@ -1,0 +1,97 @@
+use crate::block::Block;
+use crate::decision_layout::{DecisionLayout, ShootingDimensions};
+use crate::error::OcpError;
+use crate::evaluator::Evaluator;
+use crate::grid::Grid;
+use crate::stage_functions::StageFunctions;
+use crate::stage_store::StageStore;
+use crate::structure::{HessianStructure, JacobianStructure};
+
+/// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`DecisionLayout`]
+/// for the order of its variables and constraints.
+pub struct MultipleShooting<'f> {
+    pub(crate) functions: &'f StageFunctions,
+    pub(crate) grid: Grid,
+    pub(crate) layout: DecisionLayout,
+    /// x_0, passive states left out.
+    pub(crate) initial: Vec<f64>,
+    pub(crate) full_initial: Vec<f64>,
+    pub(crate) jacobian: JacobianStructure,
+    pub(crate) hessian: HessianStructure,
+    pub(crate) evaluator: Evaluator,
+    pub(crate) store: StageStore,
+    /// The decision vector at which `store` was filled.
+    pub(crate) stored_at: Vec<f64>,
+}
+
+impl<'f> MultipleShooting<'f> {
+    /// Transcribes the problem behind `functions` on `grid` from the state `initial` (all states of
+    /// the problem, passive ones too).
+    ///
+    /// # Errors
+    /// [`OcpError::Dimension`] or [`OcpError::NotFinite`] when `initial` does not fit.
+    pub fn new(
+        functions: &'f StageFunctions,
+        grid: Grid,
+        initial: &[f64],
+    ) -> Result<Self, OcpError> {
+        if initial.len() != functions.all_states {
+            return Err(OcpError::Dimension {
+                what: "initial state",
+                expected: functions.all_states,
+                found: initial.len(),
+            });
+        }
+        if let Some((index, &value)) = initial.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            return Err(OcpError::NotFinite { what: "initial state", index, value });
+        }
+        let dimensions = ShootingDimensions {
+            states: functions.states,
+            controls: functions.controls,
+            path: functions.path_bounds.len(),
+            terminal: functions.terminal_bounds.len(),
+            steps: grid.steps(),
+        };
+        Ok(Self {
+            functions,
+            grid,
+            layout: DecisionLayout::new(dimensions),
+            initial: functions.active.iter().map(|&i| initial[i]).collect(),
+            full_initial: initial.to_vec(),
+            jacobian: JacobianStructure::new(functions, grid.steps()),
+            hessian: HessianStructure::new(functions, grid.steps()),
+            evaluator: Evaluator::new(functions),
+            store: StageStore::new(functions, Block::count_for(grid.steps())),
+            stored_at: Vec::new(),
+        })
+    }
+
+    /// Where everything lives in the vectors.
+    pub fn layout(&self) -> DecisionLayout {
+        self.layout
+    }
+
+    /// The grid it was transcribed on.
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// The functions it evaluates.
+    pub fn functions(&self) -> &'f StageFunctions {
+        self.functions
+    }
+
+    /// x_0 without the passive states.
+    pub fn initial_state(&self) -> &[f64] {
+        &self.initial
+    }
+
+    /// x_0 with every state of the problem.
+    pub fn full_initial_state(&self) -> &[f64] {
+        &self.full_initial
+    }
+
+    pub(crate) fn steps(&self) -> usize {
+        self.grid.steps()
+    }
+}

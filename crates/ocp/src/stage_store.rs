@@ -1,0 +1,64 @@
+use righting_symbolic::LANES;
+
+use crate::rk4::STAGES;
+use crate::stage_functions::StageFunctions;
+
+/// What the Hessian of a step reuses from its Jacobian: the stage points y_1…y_4 and the varying
+/// entries of J_1…J_4, lanes side by side.
+pub(crate) struct StageStore {
+    points: Vec<f64>,
+    jacobians: Vec<f64>,
+    point_width: usize,
+    jacobian_width: usize,
+}
+
+impl StageStore {
+    pub(crate) fn new(functions: &StageFunctions, blocks: usize) -> Self {
+        let point_width = functions.states * LANES;
+        let jacobian_width = functions.ode.jacobian.varying() * LANES;
+        Self {
+            points: vec![0.0; blocks * STAGES * point_width],
+            jacobians: vec![0.0; blocks * STAGES * jacobian_width],
+            point_width,
+            jacobian_width,
+        }
+    }
+
+    /// Points and Jacobians of the stages of each block.
+    pub(crate) fn blocks_mut(&mut self) -> impl Iterator<Item = StageStoreBlock<'_>> {
+        let (point_width, jacobian_width) = (self.point_width, self.jacobian_width);
+        // A state-independent ẋ has no varying Jacobian: its chunks are empty, not missing.
+        let mut jacobians = self.jacobians.as_mut_slice();
+        self.points.chunks_exact_mut(STAGES * point_width).map(move |points| {
+            let (head, tail) = std::mem::take(&mut jacobians).split_at_mut(STAGES * jacobian_width);
+            jacobians = tail;
+            StageStoreBlock { points, jacobians: head, point_width, jacobian_width }
+        })
+    }
+}
+
+/// The part of a [`StageStore`] that belongs to one block.
+pub(crate) struct StageStoreBlock<'a> {
+    points: &'a mut [f64],
+    jacobians: &'a mut [f64],
+    point_width: usize,
+    jacobian_width: usize,
+}
+
+impl StageStoreBlock<'_> {
+    pub(crate) fn point(&self, stage: usize) -> &[f64] {
+        &self.points[stage * self.point_width..][..self.point_width]
+    }
+
+    pub(crate) fn point_mut(&mut self, stage: usize) -> &mut [f64] {
+        &mut self.points[stage * self.point_width..][..self.point_width]
+    }
+
+    pub(crate) fn jacobian(&self, stage: usize) -> &[f64] {
+        &self.jacobians[stage * self.jacobian_width..][..self.jacobian_width]
+    }
+
+    pub(crate) fn jacobian_mut(&mut self, stage: usize) -> &mut [f64] {
+        &mut self.jacobians[stage * self.jacobian_width..][..self.jacobian_width]
+    }
+}
