@@ -87,6 +87,8 @@ fn no_crate_reaches_what_it_shall_know_nothing_of() {
             assert!(!reached.contains(other), "{name} reaches {other}");
         }
     }
+    // The verifier reads the planner's types of systems and states, and calls no equation of theirs.
+    assert!(!dependencies["righting-verifier"].contains("righting-multibody"));
     // The check itself sees what is there.
     assert!(reached("righting-planner", &dependencies).contains("righting-ipopt-sys"));
 }

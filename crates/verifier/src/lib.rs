@@ -20,6 +20,37 @@
 //!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
 //! - joints follow from the controls exactly, so they may differ by what a solver leaves of its
 //!   equations: 1e-6 rad and rad/s.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use righting_results::{ControlInterval, Node, Trajectory};
+//! use righting_scenario::Scenario;
+//! use righting_verifier::verify;
+//!
+//! // To do nothing is a motion by the laws of mechanics, and no slew.
+//! let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
+//! let steps = scenario.horizon().steps;
+//! let node = |k| Node {
+//!     time_s: scenario.horizon().time_s(k),
+//!     position_m: [0.0; 3],
+//!     attitude: [1.0, 0.0, 0.0, 0.0],
+//!     velocity_m_s: [0.0; 3],
+//!     angular_rate_rad_s: [0.0; 3],
+//!     joint_angles_rad: vec![0.0; 2],
+//!     joint_rates_rad_s: vec![0.0; 2],
+//!     power_w: 0.0,
+//! };
+//! let idle = ControlInterval {
+//!     joint_accelerations_rad_s2: vec![0.0; 2],
+//!     joint_torques_n_m: vec![0.0; 2],
+//! };
+//! let trajectory = Trajectory::new((0..=steps).map(node).collect(), vec![idle; steps])?;
+//! let verification = verify(&scenario, &trajectory);
+//! let failed: Vec<&str> = verification.failures().map(|check| check.name.as_str()).collect();
+//! assert_eq!(failed, ["attitude error at the end"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 

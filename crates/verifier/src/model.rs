@@ -25,6 +25,32 @@
 //! ```
 //!
 //! Attitudes are nalgebra's quaternions.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use righting_scenario::Scenario;
+//! use righting_verifier::model::{BaseAcceleration, Model, Motion, State};
+//!
+//! // A base that turns at 20 deg/s keeps its momentum when the arm moves.
+//! let scenario = Scenario::read(Path::new("../../scenarios/detumble_4dof.json"))?;
+//! let model = Model::new(scenario.resolved_system());
+//! let mut motion = Motion::new(&model);
+//! let mut x = scenario.initial().state().to_vec();
+//! let u = [0.1, -0.2, 0.1, 0.3];
+//! let mut momentum = |x: &[f64]| {
+//!     motion.set(&model, &State::from_slice(x), &BaseAcceleration::default(), &u);
+//!     motion.angular_momentum()
+//! };
+//! let before = momentum(&x);
+//! let (mut rate, mut room) = (vec![0.0; x.len()], Motion::new(&model));
+//! for _ in 0..1000 {
+//!     model.state_derivative(&x, &u, &mut room, &mut rate);
+//!     x.iter_mut().zip(&rate).for_each(|(x, rate)| *x += 1e-4 * rate);
+//! }
+//! assert!((momentum(&x) - before).norm() < 1e-4 * before.norm());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod body;
 mod dynamics;

@@ -1,3 +1,5 @@
+//! The checks of a trajectory, one after the other.
+
 use nalgebra::{UnitQuaternion, Vector3};
 use righting_results::solution::Terminal;
 use righting_results::trajectory::Trajectory;
@@ -30,7 +32,7 @@ const JOINT_RAD: f64 = 1e-6;
 const MOMENTUM: f64 = 1e-4;
 const TORQUE: f64 = 1e-6;
 
-/// Checks a trajectory against its scenario. See the [crate](crate) for what is checked and how.
+/// Checks a trajectory against its scenario. See the [crate] for what is checked and how.
 ///
 /// Never fails: a trajectory that does not even fit its scenario is one that did not pass.
 pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
