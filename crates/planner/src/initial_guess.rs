@@ -5,7 +5,7 @@ mod joint_loops;
 use std::f64::consts::PI;
 
 use righting_multibody::{Quaternion, State};
-use righting_ocp::InitialGuess;
+use righting_ocp::{InitialGuess, RungeKutta4};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::{Maneuver, Scenario};
@@ -64,19 +64,15 @@ impl InitialGuesses<'_> {
     /// The motion that the guess's controls make: its base turns as momentum has it.
     pub(crate) fn simulated(&self, mut guess: InitialGuess) -> InitialGuess {
         let step_s = self.scenario.horizon().duration_s / self.steps as f64;
-        let mut x = self.initial.to_vec();
+        let (mut x, mut point) = (self.initial.to_vec(), self.initial.to_vec());
+        let mut method = RungeKutta4::new(x.len());
         for step in 0..self.steps {
             let u = guess.controls.row(step);
-            let after = |rates: &[f64], share: f64| -> Vec<f64> {
-                x.iter().zip(rates).map(|(x, rate)| x + share * step_s * rate).collect()
-            };
-            let k1 = self.coordinates.rates(&x, u);
-            let k2 = self.coordinates.rates(&after(&k1, 0.5), u);
-            let k3 = self.coordinates.rates(&after(&k2, 0.5), u);
-            let k4 = self.coordinates.rates(&after(&k3, 1.0), u);
-            for (i, x) in x.iter_mut().enumerate() {
-                *x += step_s / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
-            }
+            let next = method.step(step_s, &x, |stage| {
+                stage.write_point(&mut point);
+                stage.set_rates(&self.coordinates.rates(&point, u));
+            });
+            x.copy_from_slice(next);
             guess.states.row_mut(step + 1).copy_from_slice(&x);
         }
         guess
