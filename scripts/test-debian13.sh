@@ -24,7 +24,7 @@ if [ "${1:-}" = --inside ]; then
     mount -t tmpfs none "$root/dev/shm"
     mount --bind -o ro "$SYSROOT" "$root/opt/rust"
     mount --bind -o ro "$REGISTRY" "$root/root/.cargo/registry"
-    exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM=dumb CARGO_NET_OFFLINE=true \
+    exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM=dumb CARGO_NET_OFFLINE=true CARGO_INCREMENTAL=0 \
         CARGO_TARGET_DIR=/work/target PATH=/opt/rust/bin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         "$@"
 fi
