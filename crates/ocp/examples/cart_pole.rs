@@ -1,9 +1,7 @@
 //! Swings a pendulum up with a cart that may push with 20 N at most: from hanging at rest to
 //! balanced at rest, 1 m further, in 2 s (Kelly, *SIAM Review* 59(4), 2017, appendix E).
 
-use num_dual::DualNum;
 use righting_ocp::*;
-use righting_symbolic::Expr;
 
 const CART_KG: f64 = 1.0;
 const BOB_KG: f64 = 0.3;

@@ -34,7 +34,6 @@ mod block;
 mod component_bounds;
 mod control_problem;
 mod decision_layout;
-mod derivative_check;
 mod error;
 mod evaluation;
 mod evaluator;
@@ -68,7 +67,6 @@ pub use attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 pub use component_bounds::ComponentBounds;
 pub use control_problem::ControlProblem;
 pub use decision_layout::{DecisionLayout, ShootingDimensions};
-pub use derivative_check::DerivativeErrors;
 pub use error::OcpError;
 pub use grid::Grid;
 pub use initial_guess::InitialGuess;
@@ -85,6 +83,8 @@ pub use sparsity::KktSparsity;
 pub use stage_functions::StageFunctions;
 
 pub use num_dual::DualNum;
-pub use righting_nlp::{Control, Iteration, Options, ReducedHessian, Status, Timing};
+pub use righting_nlp::{
+    Control, DerivativeErrors, Iteration, Options, ReducedHessian, Status, Timing,
+};
 pub use righting_scalar::Scalar;
 pub use righting_symbolic::{Backend, Expr};

@@ -1,4 +1,4 @@
-use righting_nlp::{EvaluationError, Problem, TripletStructure};
+use crate::{EvaluationError, Problem, TripletStructure};
 
 /// How far exact derivatives are from finite differences along one direction, relative to the size
 /// of the derivative there.
