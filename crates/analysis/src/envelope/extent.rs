@@ -1,9 +1,7 @@
 //! How far momentum or torque reaches in every direction.
 
-use std::num::NonZero;
-use std::thread;
-
 use nalgebra::Vector3;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use righting_scenario::halton::Halton;
 
 use super::arm::{Arm, Motion, Quantity};
@@ -52,28 +50,37 @@ pub(super) fn reach(arm: Arm<'_>, of: Quantity) -> Vec<Reach> {
     let coarse = octahedral(COARSE).len();
     let pool: Vec<Vec<f64>> =
         Halton::new(arm.joints()).take(POOL).map(|at| arm.angles_at(&spread(at, arm))).collect();
-    let mut found = in_parallel(&directions[..coarse], |direction| {
-        let mut starts: Vec<Motion> =
-            pool.iter().map(|angles| arm.most_at(angles.clone(), direction, of)).collect();
-        let along = |motion: &Motion| direction.dot(&motion.vector);
-        starts.sort_by(|a, b| along(b).total_cmp(&along(a)));
-        best_climb(arm, of, *direction, starts.into_iter().take(STARTS))
-    });
-    let fine = in_parallel(&directions[coarse..], |direction| {
-        let mut nearest: Vec<&Reach> = found.iter().collect();
-        let along = |reach: &Reach| direction.dot(&reach.motion.vector);
-        nearest.sort_by(|a, b| along(b).total_cmp(&along(a)));
-        let starts = nearest.into_iter().take(2).map(|reach| reach.motion.clone());
-        best_climb(arm, of, *direction, starts)
-    });
+    let mut found = directions[..coarse]
+        .par_iter()
+        .map(|direction| {
+            let mut starts: Vec<Motion> =
+                pool.iter().map(|angles| arm.most_at(angles.clone(), direction, of)).collect();
+            let along = |motion: &Motion| direction.dot(&motion.vector);
+            starts.sort_by(|a, b| along(b).total_cmp(&along(a)));
+            best_climb(arm, of, *direction, starts.into_iter().take(STARTS))
+        })
+        .collect::<Vec<_>>();
+    let fine = directions[coarse..]
+        .par_iter()
+        .map(|direction| {
+            let mut nearest: Vec<&Reach> = found.iter().collect();
+            let along = |reach: &Reach| direction.dot(&reach.motion.vector);
+            nearest.sort_by(|a, b| along(b).total_cmp(&along(a)));
+            let starts = nearest.into_iter().take(2).map(|reach| reach.motion.clone());
+            best_climb(arm, of, *direction, starts)
+        })
+        .collect::<Vec<_>>();
     found.extend(fine);
     for _ in 0..MOST_EXCHANGES {
-        let improved = in_parallel(&found, |own| {
-            let along = |reach: &&Reach| own.direction.dot(&reach.motion.vector);
-            let better = found.iter().max_by(|a, b| along(a).total_cmp(&along(b)))?;
-            let beats = along(&better) > own.extent() + GAIN * own.extent().abs();
-            beats.then(|| climb(arm, of, own.direction, better.motion.clone()))
-        });
+        let improved = found
+            .par_iter()
+            .map(|own| {
+                let along = |reach: &&Reach| own.direction.dot(&reach.motion.vector);
+                let better = found.iter().max_by(|a, b| along(a).total_cmp(&along(b)))?;
+                let beats = along(&better) > own.extent() + GAIN * own.extent().abs();
+                beats.then(|| climb(arm, of, own.direction, better.motion.clone()))
+            })
+            .collect::<Vec<_>>();
         if improved.iter().all(Option::is_none) {
             break;
         }
@@ -200,22 +207,4 @@ pub(super) fn climb(arm: Arm<'_>, of: Quantity, direction: Vector3<f64>, start: 
         slope = next;
     }
     Reach { direction, motion: at }
-}
-
-/// `work` on every item, on all cores, results in the items' order.
-pub(super) fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let cores = thread::available_parallelism().map_or(1, NonZero::get);
-    let share = items.len().div_ceil(cores).max(1);
-    let work = &work;
-    thread::scope(|scope| {
-        let shares: Vec<_> = items
-            .chunks(share)
-            .map(|items| scope.spawn(move || items.iter().map(work).collect::<Vec<R>>()))
-            .collect();
-        let finished = shares.into_iter().flat_map(|share| match share.join() {
-            Ok(results) => results,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        finished.collect()
-    })
 }

@@ -1,11 +1,12 @@
 //! How large an arm must be to do what an array of wheels does, and the reverse.
 
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use righting_multibody::{Link, System};
 use righting_scenario::system_description::SystemDescription;
 use serde::Serialize;
 
 use super::arm::{Arm, Quantity};
-use super::extent::{Reach, climb, in_parallel};
+use super::extent::{Reach, climb};
 use crate::zonotope::Zonotope;
 
 /// Directions in which the two are compared, axes and diagonals among them.
@@ -48,10 +49,13 @@ pub(super) fn sizing(
         smallest_factor(|factor| {
             let Some(model) = scaled(&description.model, change, factor) else { return false };
             let arm = Arm { model: &model, limits: &description.joint_limits };
-            let reached = in_parallel(reaches, |reach| {
-                let start = arm.most_at(reach.motion.angles.clone(), &reach.direction, of);
-                climb(arm, of, reach.direction, start)
-            });
+            let reached = reaches
+                .par_iter()
+                .map(|reach| {
+                    let start = arm.most_at(reach.motion.angles.clone(), &reach.direction, of);
+                    climb(arm, of, reach.direction, start)
+                })
+                .collect::<Vec<_>>();
             reached.iter().all(|reach| reach.extent() >= wheels.extent(&reach.direction))
         })
     };
