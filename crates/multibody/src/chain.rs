@@ -14,7 +14,7 @@
 use crate::coupling::{Barycentric, Coupling, RootCoupling};
 use crate::error::{ModelError, Part};
 use crate::inertia::{MassMoments, rod_inertia};
-use crate::system::{Base, DhConvention, Link, Mount, Payload};
+use crate::parts::{Base, DhConvention, Link, Mount, Payload};
 use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 

@@ -7,8 +7,9 @@
 
 use crate::algebra::{constant, constant_rotation, offset_by};
 use crate::distance::Segment;
+use crate::parts::DhConvention;
 use crate::sweep::joint_rotations;
-use crate::system::{DhConvention, System};
+use crate::system::System;
 use nalgebra::Vector3;
 use righting_scalar::Scalar;
 

@@ -5,8 +5,9 @@ use crate::algebra::{
 };
 use crate::chain::{Chain, Joint, LinkCenter};
 use crate::distance::Segment;
+use crate::parts::DhConvention;
 use crate::sweep::group_rotations;
-use crate::system::{DhConvention, System};
+use crate::system::System;
 use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::native::is_native;
 use super::schedule::schedule;
-use super::tape::{Instruction, Layout, MASKS, Opcode, Register, Tape};
+use super::tape::{Instruction, MASKS, Opcode, Register, RegisterFile, Tape};
 use crate::graph::{Node, NodeId};
 use crate::op::Unary;
 use crate::subgraph::{Position, Subgraph};
@@ -80,7 +80,7 @@ pub(super) fn compile(program: &Program) -> Tape {
             instructions.push(Instruction { opcode: Opcode::Copy, result, registers });
         }
     }
-    let layout = Layout {
+    let layout = RegisterFile {
         inputs: program.input_count,
         outputs: program.outputs.len(),
         constants: registers.constants.len(),

@@ -59,14 +59,14 @@ impl Instruction {
 
 /// The register file: inputs, then outputs, constants and temporaries.
 #[derive(Copy, Clone, Debug, Default)]
-pub(super) struct Layout {
+pub(super) struct RegisterFile {
     pub inputs: usize,
     pub outputs: usize,
     pub constants: usize,
     pub temporaries: usize,
 }
 
-impl Layout {
+impl RegisterFile {
     pub(super) fn registers(&self) -> usize {
         self.inputs + self.outputs + self.constants + self.temporaries
     }
@@ -103,20 +103,24 @@ impl Layout {
     }
 }
 
-/// The constants that every tape starts with, for machine code: see [`Layout::zero`] and those after.
+/// The constants that every tape starts with, for machine code: see [`RegisterFile::zero`] and those after.
 pub(super) const MASKS: [f64; 3] = [0.0, -0.0, f64::from_bits(u64::MAX >> 1)];
 
 /// A straight-line program over one register file. Every register index is below
 /// `layout.registers()`: [`Tape::new`] checks it, and machine code relies on it.
 #[derive(Clone, Debug)]
 pub(super) struct Tape {
-    pub layout: Layout,
+    pub layout: RegisterFile,
     pub constants: Vec<f64>,
     pub instructions: Vec<Instruction>,
 }
 
 impl Tape {
-    pub(super) fn new(layout: Layout, constants: Vec<f64>, instructions: Vec<Instruction>) -> Self {
+    pub(super) fn new(
+        layout: RegisterFile,
+        constants: Vec<f64>,
+        instructions: Vec<Instruction>,
+    ) -> Self {
         let count = layout.registers();
         assert_eq!(constants.len(), layout.constants);
         for instruction in &instructions {
@@ -129,7 +133,7 @@ impl Tape {
 
     /// Computes nothing.
     pub(super) fn empty() -> Self {
-        let layout = Layout { constants: MASKS.len(), ..Layout::default() };
+        let layout = RegisterFile { constants: MASKS.len(), ..RegisterFile::default() };
         Self::new(layout, MASKS.to_vec(), Vec::new())
     }
 

@@ -1,0 +1,181 @@
+//! What a system is put together from.
+
+use crate::error::{ModelError, Part};
+use crate::inertia::{self, Definiteness};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+/// The base body. Its centre of mass is the origin of the body frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Base {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Inertia about the centre of mass, body axes, kg m².
+    pub inertia_kg_m2: Matrix3<f64>,
+}
+
+impl Base {
+    /// A uniform cube of side `side_m`: inertia m s²/6 about every axis.
+    ///
+    /// # Errors
+    /// The side is not a positive, finite number.
+    pub fn uniform_cube(mass_kg: f64, side_m: f64) -> Result<Self, ModelError> {
+        if !(side_m > 0.0 && side_m.is_finite()) {
+            return Err(ModelError::CubeSide { side_m });
+        }
+        let moment = mass_kg * side_m * side_m / 6.0;
+        Ok(Self { mass_kg, inertia_kg_m2: Matrix3::from_diagonal_element(moment) })
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        check_mass(Part::Base, self.mass_kg)?;
+        if self.mass_kg == 0.0 {
+            return Err(ModelError::MasslessBase);
+        }
+        inertia::check(Part::Base, &self.inertia_kg_m2, Definiteness::Positive)
+    }
+}
+
+/// Where the arm's frame 0 sits on the base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mount {
+    /// Origin 0 from the body-frame origin, body axes, m.
+    pub position_m: Vector3<f64>,
+    /// Turns vectors of frame 0 into body axes.
+    pub rotation: Rotation3<f64>,
+}
+
+impl Mount {
+    /// Frame 0 parallel to the body frame, its origin at `position_m`.
+    pub fn at(position_m: Vector3<f64>) -> Self {
+        Self { position_m, rotation: Rotation3::identity() }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        for value in &self.position_m {
+            check_finite(Part::Mount, "position_m", *value)?;
+        }
+        for value in self.rotation.matrix() {
+            check_finite(Part::Mount, "rotation", *value)?;
+        }
+        let matrix = self.rotation.matrix();
+        let mut deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();
+        if matrix.determinant() < 0.0 {
+            deviation = deviation.max(2.0);
+        }
+        if deviation > 1e-9 {
+            return Err(ModelError::NotARotation { deviation });
+        }
+        Ok(())
+    }
+}
+
+/// Which frame a row of Denavit-Hartenberg parameters places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DhConvention {
+    /// Distal: T(i−1→i) = Rz(θ + q) Tz(d) Tx(a) Rx(α). Joint i turns about z(i−1), and link i moves
+    /// with frame i.
+    Standard,
+    /// Proximal (Craig): T(i−1→i) = Rx(α) Tx(a) Rz(θ + q) Tz(d), α and a of the same row. Joint i
+    /// turns about z(i); the link of row i lies between origins i−1 and i and moves with
+    /// frame i−1, so that of row 1 is fixed to the base.
+    Modified,
+}
+
+/// One row of Denavit-Hartenberg parameters and the link that spans it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Length along x, m.
+    pub a_m: f64,
+    /// Twist about x, rad.
+    pub alpha_rad: f64,
+    /// Offset along z, m.
+    pub d_m: f64,
+    /// Angle about z where the joint coordinate is zero, rad.
+    pub theta_rad: f64,
+    /// Centre of mass in the link's own frame, the one it moves with (see [`DhConvention`]), m.
+    /// Half way between the two origins if not given.
+    pub center_of_mass_m: Option<Vector3<f64>>,
+    /// Inertia about the centre of mass in the axes of the link's own frame, kg m². That of a
+    /// uniform slender rod between the two origins if not given: zero where they coincide.
+    pub inertia_kg_m2: Option<Matrix3<f64>>,
+}
+
+impl Link {
+    /// A uniform slender rod along the straight segment between the link's two origins; a point
+    /// mass where they coincide.
+    pub fn rod(mass_kg: f64, a_m: f64, alpha_rad: f64, d_m: f64, theta_rad: f64) -> Self {
+        Self {
+            mass_kg,
+            a_m,
+            alpha_rad,
+            d_m,
+            theta_rad,
+            center_of_mass_m: None,
+            inertia_kg_m2: None,
+        }
+    }
+
+    /// Distance between the link's two origins, m.
+    pub fn length_m(&self) -> f64 {
+        self.a_m.hypot(self.d_m)
+    }
+
+    pub(crate) fn check(&self, part: Part) -> Result<(), ModelError> {
+        check_mass(part, self.mass_kg)?;
+        for (quantity, value) in [
+            ("a_m", self.a_m),
+            ("alpha_rad", self.alpha_rad),
+            ("d_m", self.d_m),
+            ("theta_rad", self.theta_rad),
+        ] {
+            check_finite(part, quantity, value)?;
+        }
+        for value in self.center_of_mass_m.iter().flatten() {
+            check_finite(part, "center_of_mass_m", *value)?;
+        }
+        check_inertia(part, self.mass_kg, self.inertia_kg_m2.as_ref())
+    }
+}
+
+/// A body held rigidly at the last origin, moving with the last frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Payload {
+    /// Mass, kg. Its centre is the last origin.
+    pub mass_kg: f64,
+    /// Inertia about its centre, axes of the last frame, kg m². A point mass if not given.
+    pub inertia_kg_m2: Option<Matrix3<f64>>,
+}
+
+impl Payload {
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        check_mass(Part::Payload, self.mass_kg)?;
+        check_inertia(Part::Payload, self.mass_kg, self.inertia_kg_m2.as_ref())
+    }
+}
+
+fn check_inertia(
+    part: Part,
+    mass_kg: f64,
+    inertia_kg_m2: Option<&Matrix3<f64>>,
+) -> Result<(), ModelError> {
+    let Some(matrix) = inertia_kg_m2 else { return Ok(()) };
+    inertia::check(part, matrix, Definiteness::Semidefinite)?;
+    if mass_kg == 0.0 && matrix.amax() > 0.0 {
+        return Err(ModelError::InertiaWithoutMass { part });
+    }
+    Ok(())
+}
+
+fn check_mass(part: Part, mass_kg: f64) -> Result<(), ModelError> {
+    check_finite(part, "mass_kg", mass_kg)?;
+    if mass_kg < 0.0 {
+        return Err(ModelError::NegativeMass { part, mass_kg });
+    }
+    Ok(())
+}
+
+fn check_finite(part: Part, quantity: &'static str, value: f64) -> Result<(), ModelError> {
+    if value.is_finite() { Ok(()) } else { Err(ModelError::NotFinite { part, quantity, value }) }
+}
