@@ -1,7 +1,7 @@
 //! `righting solve`: plan a maneuver, prove it, write it down.
 
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use righting_ocp::Control;
@@ -37,6 +37,10 @@ pub struct Arguments {
     /// too. To add this plan to it, name a folder in it with --out. Made if missing.
     #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
     library: Option<PathBuf>,
+    /// Stop after so many seconds with what there is then, which is no plan; see also
+    /// solver.time_limit_s of the scenario.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time_limit: Option<Duration>,
     /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
     #[arg(long)]
     no_report: bool,
@@ -83,6 +87,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     };
     let mut planner = Planner::new().program(build::VERSION);
+    if let Some(limit) = arguments.time_limit {
+        planner = planner.time_limit(limit);
+    }
     match &mut warm_start {
         WarmStart::None => {}
         WarmStart::Plan { trajectory, .. } => planner = planner.warm_start(trajectory),
@@ -102,6 +109,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::print(&summary(&solution, &files.paths()))?;
     }
     conclude(&solution)
+}
+
+/// A positive number of seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0);
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "expected a number of seconds above 0".to_owned())
 }
 
 /// Whether that is what was asked for.

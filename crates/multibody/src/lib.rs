@@ -97,6 +97,7 @@ mod sweep;
 mod symmetric;
 mod system;
 mod turn;
+mod units;
 
 pub use attitude::Quaternion;
 pub use distance::Segment;
@@ -108,3 +109,4 @@ pub use momentum_map::MomentumMap;
 pub use parts::{Base, DhConvention, Link, Mount, Payload};
 pub use state::State;
 pub use system::System;
+pub use units::Units;

@@ -43,6 +43,17 @@ impl System {
         if let Some(payload) = &payload {
             payload.check()?;
         }
+        Self::assembled(base, mount, convention, links, payload)
+    }
+
+    /// From parts that were checked.
+    pub(crate) fn assembled(
+        base: Base,
+        mount: Mount,
+        convention: DhConvention,
+        links: Vec<Link>,
+        payload: Option<Payload>,
+    ) -> Result<Self, ModelError> {
         let chain = Chain::new(&base, &mount, convention, &links, payload.as_ref())?;
         Ok(Self { base, mount, convention, links, payload, chain })
     }

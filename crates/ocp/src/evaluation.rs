@@ -200,6 +200,7 @@ impl Problem for MultipleShooting<'_> {
                 functions,
                 block,
                 h,
+                functions.substeps(),
                 |k| rows.state(k),
                 |k| rows.control(k),
             );

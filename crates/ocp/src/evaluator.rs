@@ -1,3 +1,5 @@
+use std::num::NonZeroUsize;
+
 use righting_symbolic::{LANES, Workspace};
 
 use crate::block::Block;
@@ -9,7 +11,6 @@ use crate::stage_store::StageStoreBlock;
 /// Ports of [`StepFunctions`](crate::step_functions::StepFunctions), in order.
 const STEP_H: usize = 0;
 const STEP_JACOBIANS: usize = 1;
-const STEP_EXTRA: usize = STEP_JACOBIANS + STAGES;
 
 /// The workspaces of a [`NodeFunction`].
 pub(crate) struct NodeWorkspace {
@@ -40,6 +41,8 @@ pub(crate) struct Evaluator {
     step_second: Workspace,
     states: Vec<f64>,
     method: RungeKutta4,
+    /// Runge–Kutta steps in one integration step.
+    substeps: NonZeroUsize,
 }
 
 impl Evaluator {
@@ -55,26 +58,37 @@ impl Evaluator {
             step_second: functions.step.second.workspace(),
             states: vec![0.0; functions.states * LANES],
             method: RungeKutta4::new(functions.states * LANES),
+            substeps: functions.step.substeps,
         }
     }
 
-    /// F(x_k, u_k) of a block: one row of lanes per state.
+    /// Index of the port after those of the stages' Jacobians.
+    fn step_extra(&self) -> usize {
+        STEP_JACOBIANS + self.substeps.get() * STAGES
+    }
+
+    /// F(x_k, u_k) of a block, in so many Runge–Kutta steps: one row of lanes per state.
     pub(crate) fn step_values<'a>(
         &mut self,
         functions: &StageFunctions,
         block: Block,
         h: f64,
+        substeps: NonZeroUsize,
         state: impl Fn(usize) -> &'a [f64],
         control: impl Fn(usize) -> &'a [f64],
     ) -> &[f64] {
         let workspace = &mut self.ode.value;
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
-        self.method.step(h, &self.states, |stage| {
-            stage.write_point(workspace.input_mut(0));
-            functions.ode.value.evaluate_block(workspace);
-            stage.set_rates(workspace.output(0));
-        })
+        for _ in 0..substeps.get() {
+            let next = self.method.step(h / substeps.get() as f64, &self.states, |stage| {
+                stage.write_point(workspace.input_mut(0));
+                functions.ode.value.evaluate_block(workspace);
+                stage.set_rates(workspace.output(0));
+            });
+            self.states.copy_from_slice(next);
+        }
+        &self.states
     }
 
     /// The varying entries of −∂F/∂(x, u) of a block, one row of lanes each.
@@ -90,14 +104,19 @@ impl Evaluator {
         let workspace = &mut self.ode.first;
         block.load(&mut self.states, functions.states, state);
         block.load(workspace.input_mut(1), functions.controls, control);
+        let h = h / self.substeps.get() as f64;
         self.step_first.input_mut(STEP_H).fill(h);
-        self.method.stages(h, &self.states, |stage| {
-            stage.write_point(workspace.input_mut(0));
-            store.point_mut(stage.index()).copy_from_slice(workspace.input_mut(0));
-            functions.ode.first.evaluate_block(workspace);
-            stage.set_rates(workspace.output(0));
-            store.jacobian_mut(stage.index()).copy_from_slice(workspace.output(1));
-        });
+        for substep in 0..self.substeps.get() {
+            let first = substep * STAGES;
+            let next = self.method.step(h, &self.states, |stage| {
+                stage.write_point(workspace.input_mut(0));
+                store.point_mut(first + stage.index()).copy_from_slice(workspace.input_mut(0));
+                functions.ode.first.evaluate_block(workspace);
+                stage.set_rates(workspace.output(0));
+                store.jacobian_mut(first + stage.index()).copy_from_slice(workspace.output(1));
+            });
+            self.states.copy_from_slice(next);
+        }
         load_jacobians(&mut self.step_first, store);
         functions.step.first.evaluate_block(&mut self.step_first);
         self.step_first.output(0)
@@ -114,10 +133,12 @@ impl Evaluator {
         multiplier: impl Fn(usize) -> &'a [f64],
         store: &StageStoreBlock<'_>,
     ) -> &[f64] {
+        let h = h / self.substeps.get() as f64;
+        let extra = self.step_extra();
         let adjoint = &mut self.step_multipliers;
         adjoint.input_mut(STEP_H).fill(h);
         load_jacobians(adjoint, store);
-        let lambda = adjoint.input_mut(STEP_EXTRA);
+        let lambda = adjoint.input_mut(extra);
         block.load(lambda, functions.states, multiplier);
         lambda.iter_mut().for_each(|lambda| *lambda = -*lambda);
         functions.step.multipliers.evaluate_block(adjoint);
@@ -127,11 +148,11 @@ impl Evaluator {
         compose.input_mut(STEP_H).fill(h);
         load_jacobians(compose, store);
         block.load(workspace.input_mut(1), functions.controls, control);
-        for stage in 0..STAGES {
+        for stage in 0..store.stages() {
             workspace.input_mut(0).copy_from_slice(store.point(stage));
             workspace.input_mut(2).copy_from_slice(adjoint.output(stage));
             functions.ode.second.evaluate_block(workspace);
-            compose.input_mut(STEP_EXTRA + stage).copy_from_slice(workspace.output(0));
+            compose.input_mut(extra + stage).copy_from_slice(workspace.output(0));
         }
         functions.step.second.evaluate_block(compose);
         compose.output(0)
@@ -139,7 +160,7 @@ impl Evaluator {
 }
 
 fn load_jacobians(workspace: &mut Workspace, store: &StageStoreBlock<'_>) {
-    for stage in 0..STAGES {
+    for stage in 0..store.stages() {
         workspace.input_mut(STEP_JACOBIANS + stage).copy_from_slice(store.jacobian(stage));
     }
 }

@@ -31,6 +31,17 @@ impl Grid {
         Ok(Self { running_weight, ..grid })
     }
 
+    /// The first `steps` steps of this grid alone, divided into `in_steps` steps instead; the running cost is
+    /// weighted as in [`with_steps`](Self::with_steps).
+    ///
+    /// # Errors
+    /// [`OcpError::Grid`] when either is zero.
+    pub fn beginning(&self, steps: usize, in_steps: usize) -> Result<Self, OcpError> {
+        let duration_s = self.step_s() * steps as f64;
+        let whole = Self::new(duration_s, steps)?;
+        Self { running_weight: self.running_weight, ..whole }.with_steps(in_steps)
+    }
+
     /// Length of the horizon.
     pub fn duration_s(&self) -> f64 {
         self.duration_s

@@ -59,6 +59,7 @@ mod sparsity;
 mod stage_functions;
 mod stage_store;
 mod step_derivatives;
+mod step_errors;
 mod step_functions;
 mod structure;
 mod trajectory;

@@ -79,6 +79,9 @@ pub fn close_guess_settings(settings: &Settings) -> Settings {
 pub struct MeshRefinement<'a> {
     /// The problem.
     pub functions: &'a StageFunctions,
+    /// The same problem for the last grid, maybe with other
+    /// [substeps](StageFunctions::with_substeps).
+    pub last_functions: &'a StageFunctions,
     /// x_0, all states of the problem.
     pub initial: &'a [f64],
     /// The grid to arrive at.
@@ -105,7 +108,8 @@ impl MeshRefinement<'_> {
         let mut attempts = Vec::new();
         let coarse = between_settings(self.settings);
         for &steps in self.between {
-            let mut solution = self.solve_on(steps, &point, &coarse, &mut on_iteration)?;
+            let mut solution =
+                self.solve_on(self.functions, steps, &point, &coarse, &mut on_iteration)?;
             attempts.append(&mut solution.attempts);
             if !solution.status.is_success() {
                 return Ok(OcpSolution { attempts, ..solution });
@@ -113,7 +117,9 @@ impl MeshRefinement<'_> {
             point = solution.point;
         }
         let last = last_settings(self.settings);
-        let mut solution = self.solve_on(self.grid.steps(), &point, &last, &mut on_iteration)?;
+        let steps = self.grid.steps();
+        let mut solution =
+            self.solve_on(self.last_functions, steps, &point, &last, &mut on_iteration)?;
         attempts.append(&mut solution.attempts);
         Ok(OcpSolution { attempts, ..solution })
     }
@@ -122,13 +128,14 @@ impl MeshRefinement<'_> {
     /// not converge cold.
     fn solve_on(
         &self,
+        functions: &StageFunctions,
         steps: usize,
         point: &PrimalDualPoint,
         warm: &Settings,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
     ) -> Result<OcpSolution, OcpError> {
         let grid = self.grid.with_steps(steps)?;
-        let mut program = MultipleShooting::new(self.functions, grid, self.initial)?;
+        let mut program = MultipleShooting::new(functions, grid, self.initial)?;
         let point = point.resampled(program.initial_state(), steps);
         let mut solution =
             program.solve(&OcpStart::Warm(point.clone()), warm, &mut *on_iteration)?;

@@ -71,12 +71,7 @@ impl RungeKutta4 {
     }
 
     /// The stages of such a step alone.
-    pub(crate) fn stages(
-        &mut self,
-        h: f64,
-        state: &[f64],
-        mut evaluate: impl FnMut(&mut StagePoint<'_>),
-    ) {
+    fn stages(&mut self, h: f64, state: &[f64], mut evaluate: impl FnMut(&mut StagePoint<'_>)) {
         for (index, node) in NODE.into_iter().enumerate() {
             let rates = &mut self.rates;
             evaluate(&mut StagePoint { index, state, offset: node * h, rates });

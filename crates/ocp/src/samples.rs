@@ -55,7 +55,8 @@ impl Samples {
         (0..self.len()).map(|index| self.row(index))
     }
 
-    pub(crate) fn first_not_finite(&self) -> Option<(usize, f64)> {
+    /// Index, row by row, and value of the first number that is infinite or none.
+    pub fn first_not_finite(&self) -> Option<(usize, f64)> {
         self.values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
     }
 }

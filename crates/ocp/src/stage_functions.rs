@@ -1,3 +1,5 @@
+use std::num::NonZeroUsize;
+
 use righting_symbolic::{Backend, Expr, Function};
 
 use crate::component_bounds::ComponentBounds;
@@ -95,7 +97,7 @@ impl StageFunctions {
             controls: m,
             all_states: problem.states,
             full_ode,
-            step: StepFunctions::compile(n, m, &ode)?,
+            step: StepFunctions::compile(n, m, &ode, NonZeroUsize::MIN)?,
             running: NodeFunction::compile("running_cost", &[("x", &x), ("u", &u)], &[running])?,
             terminal_cost: on_state("terminal_cost", &[terminal_cost])?,
             path: on_state("path", &path)?,
@@ -110,6 +112,23 @@ impl StageFunctions {
             ode,
             active,
         })
+    }
+
+    /// The same functions with each step of the grid integrated by so many Runge–Kutta steps, with the same
+    /// control, instead of one.
+    ///
+    /// # Errors
+    /// [`OcpError::Function`] when the composed derivatives cannot be compiled.
+    pub fn with_substeps(&self, substeps: NonZeroUsize) -> Result<Self, OcpError> {
+        let step = righting_symbolic::trace(|| {
+            StepFunctions::compile(self.states, self.controls, &self.ode, substeps)
+        })?;
+        Ok(Self { step, ..self.clone() })
+    }
+
+    /// Runge–Kutta steps in one step of the grid.
+    pub fn substeps(&self) -> NonZeroUsize {
+        self.step.substeps
     }
 
     /// The same functions evaluated in another way; `None` if this machine cannot. Values do not
@@ -133,9 +152,10 @@ impl StageFunctions {
     /// Operations per step and solver iteration: `(Jacobian, Hessian)`.
     pub fn operations_per_step(&self) -> (usize, usize) {
         let count = Function::instruction_count;
+        let stages = self.step.substeps.get() * STAGES;
         (
-            STAGES * count(&self.ode.first) + count(&self.step.first),
-            STAGES * count(&self.ode.second)
+            stages * count(&self.ode.first) + count(&self.step.first),
+            stages * count(&self.ode.second)
                 + count(&self.step.multipliers)
                 + count(&self.step.second),
         )

@@ -3,11 +3,12 @@ use righting_symbolic::LANES;
 use crate::rk4::STAGES;
 use crate::stage_functions::StageFunctions;
 
-/// What the Hessian of a step reuses from its Jacobian: the stage points y_1…y_4 and the varying
-/// entries of J_1…J_4, lanes side by side.
+/// What the Hessian of a step reuses from its Jacobian: the stage points y_1, y_2, … and the varying
+/// entries of J_1, J_2, …, lanes side by side.
 pub(crate) struct StageStore {
     points: Vec<f64>,
     jacobians: Vec<f64>,
+    stages: usize,
     point_width: usize,
     jacobian_width: usize,
 }
@@ -16,9 +17,11 @@ impl StageStore {
     pub(crate) fn new(functions: &StageFunctions, blocks: usize) -> Self {
         let point_width = functions.states * LANES;
         let jacobian_width = functions.ode.jacobian.varying() * LANES;
+        let stages = functions.step.substeps.get() * STAGES;
         Self {
-            points: vec![0.0; blocks * STAGES * point_width],
-            jacobians: vec![0.0; blocks * STAGES * jacobian_width],
+            stages,
+            points: vec![0.0; blocks * stages * point_width],
+            jacobians: vec![0.0; blocks * stages * jacobian_width],
             point_width,
             jacobian_width,
         }
@@ -26,11 +29,11 @@ impl StageStore {
 
     /// Points and Jacobians of the stages of each block.
     pub(crate) fn blocks_mut(&mut self) -> impl Iterator<Item = StageStoreBlock<'_>> {
-        let (point_width, jacobian_width) = (self.point_width, self.jacobian_width);
+        let Self { stages, point_width, jacobian_width, .. } = *self;
         // A state-independent ẋ has no varying Jacobian: its chunks are empty, not missing.
         let mut jacobians = self.jacobians.as_mut_slice();
-        self.points.chunks_exact_mut(STAGES * point_width).map(move |points| {
-            let (head, tail) = std::mem::take(&mut jacobians).split_at_mut(STAGES * jacobian_width);
+        self.points.chunks_exact_mut(stages * point_width).map(move |points| {
+            let (head, tail) = std::mem::take(&mut jacobians).split_at_mut(stages * jacobian_width);
             jacobians = tail;
             StageStoreBlock { points, jacobians: head, point_width, jacobian_width }
         })
@@ -46,6 +49,11 @@ pub(crate) struct StageStoreBlock<'a> {
 }
 
 impl StageStoreBlock<'_> {
+    /// Number of stages of one integration step.
+    pub(crate) fn stages(&self) -> usize {
+        self.points.len() / self.point_width
+    }
+
     pub(crate) fn point(&self, stage: usize) -> &[f64] {
         &self.points[stage * self.point_width..][..self.point_width]
     }

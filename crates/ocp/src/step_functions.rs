@@ -1,3 +1,5 @@
+use std::num::NonZeroUsize;
+
 use righting_symbolic::{Expr, Function};
 
 use crate::error::OcpError;
@@ -7,21 +9,19 @@ use crate::node_function::NodeFunction;
 use crate::rk4::STAGES;
 use crate::step_derivatives::StepDerivatives;
 
-/// Names of the ports that hold the derivatives at the four stage points.
-const JACOBIAN_PORTS: [&str; STAGES] = ["jacobian_1", "jacobian_2", "jacobian_3", "jacobian_4"];
-const HESSIAN_PORTS: [&str; STAGES] = ["hessian_1", "hessian_2", "hessian_3", "hessian_4"];
-const MULTIPLIER_PORTS: [&str; STAGES] = ["mu_1", "mu_2", "mu_3", "mu_4"];
-
-/// The derivatives of one integration step F(x, u) from those of ẋ at its stage points. All three
-/// functions take the ports `h`, then the varying entries of J_1…J_4.
+/// The derivatives of one integration step F(x, u), a few Runge–Kutta steps, from those of ẋ at its stage
+/// points. All three functions take the ports `h`, the length of a Runge–Kutta step, then the varying entries
+/// of J_1, J_2, … of every stage.
 #[derive(Debug, Clone)]
 pub(crate) struct StepFunctions {
+    /// Runge–Kutta steps in one integration step.
+    pub(crate) substeps: NonZeroUsize,
     /// `→ −∂F/∂(x, u)`, the sign it has in the defect x⁺ − F.
     pub(crate) first: Function,
     pub(crate) jacobian: MatrixOutput,
-    /// `…, λ → μ_1…μ_4`.
+    /// `…, λ → μ_1, μ_2, …`.
     pub(crate) multipliers: Function,
-    /// `…, H_1…H_4 → ∇²(λᵀF)`, lower triangle.
+    /// `…, H_1, H_2, … → ∇²(λᵀF)`, lower triangle.
     pub(crate) second: Function,
     pub(crate) hessian: MatrixOutput,
 }
@@ -31,11 +31,19 @@ impl StepFunctions {
         states: usize,
         controls: usize,
         ode: &NodeFunction,
+        substeps: NonZeroUsize,
     ) -> Result<Self, OcpError> {
         let size = states + controls;
+        let stages = substeps.get() * STAGES;
+        let names = |of: &str| -> Vec<String> {
+            (1..=stages).map(|stage| format!("{of}_{stage}")).collect()
+        };
+        let (jacobian_ports, hessian_ports) = (names("jacobian"), names("hessian"));
         let h = Expr::symbol("h");
-        let jacobian_values =
-            JACOBIAN_PORTS.map(|name| Expr::symbols(name, ode.jacobian.varying()));
+        let symbols = |ports: &[String], count: usize| -> Vec<Vec<Expr>> {
+            ports.iter().map(|name| Expr::symbols(name, count)).collect()
+        };
+        let jacobian_values = symbols(&jacobian_ports, ode.jacobian.varying());
         let jacobians = jacobian_values
             .iter()
             .map(|values| ExprMatrix::from_output(&ode.jacobian, values, states, size))
@@ -43,7 +51,7 @@ impl StepFunctions {
         let derivatives = StepDerivatives::new(h, states, controls, jacobians);
         let port = |name: &str| {
             let builder = Function::builder(name).input("h", &[h]);
-            JACOBIAN_PORTS
+            jacobian_ports
                 .iter()
                 .zip(&jacobian_values)
                 .fold(builder, |builder, (name, values)| builder.input(name, values))
@@ -53,7 +61,7 @@ impl StepFunctions {
         let first = port("step_first").output("jacobian", &varying(&step_jacobian)).build()?;
 
         let lambda = Expr::symbols("lambda", states);
-        let multipliers = MULTIPLIER_PORTS
+        let multipliers = names("mu")
             .iter()
             .zip(derivatives.stage_multipliers(&lambda))
             .fold(port("step_multipliers").input("lambda", &lambda), |builder, (name, values)| {
@@ -61,19 +69,20 @@ impl StepFunctions {
             })
             .build()?;
 
-        let hessian_values = HESSIAN_PORTS.map(|name| Expr::symbols(name, ode.hessian.varying()));
+        let hessian_values = symbols(&hessian_ports, ode.hessian.varying());
         let hessians: Vec<ExprMatrix> = hessian_values
             .iter()
             .map(|values| ExprMatrix::from_output(&ode.hessian, values, size, size).mirrored())
             .collect();
         let step_hessian = derivatives.step_hessian(&hessians).to_sparse();
-        let second = HESSIAN_PORTS
+        let second = hessian_ports
             .iter()
             .zip(&hessian_values)
             .fold(port("step_second"), |builder, (name, values)| builder.input(name, values))
             .output("hessian", &varying(&step_hessian))
             .build()?;
         Ok(Self {
+            substeps,
             first,
             jacobian: MatrixOutput::of(&step_jacobian),
             multipliers,

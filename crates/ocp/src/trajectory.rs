@@ -17,7 +17,11 @@ impl MultipleShooting<'_> {
         for step in 0..steps {
             let control = &z[layout.control(step)];
             if let Some(integrator) = &mut integrator {
-                integrator.advance(&mut state, control, self.grid().step_s());
+                let substeps = functions.substeps().get();
+                let h = self.grid().step_s() / substeps as f64;
+                for _ in 0..substeps {
+                    integrator.advance(&mut state, control, h);
+                }
             }
             for (&target, &value) in functions.active.iter().zip(&z[layout.state(step + 1)]) {
                 state[target] = value;

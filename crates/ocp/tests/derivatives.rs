@@ -1,5 +1,7 @@
 //! Exact derivatives of transcribed problems against finite differences.
 
+use std::num::NonZeroUsize;
+
 use num_dual::DualNum;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -37,8 +39,13 @@ fn problem() -> ControlProblem {
         })
 }
 
-fn check(steps: usize) {
+fn functions(substeps: usize) -> StageFunctions {
     let functions = StageFunctions::compile(&problem()).unwrap();
+    functions.with_substeps(NonZeroUsize::new(substeps).unwrap()).unwrap()
+}
+
+fn check(steps: usize, substeps: usize) {
+    let functions = functions(substeps);
     let grid = Grid::new(1.7, steps).unwrap().with_steps(steps).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.3, -0.2, 0.5, 0.1, 9.0]).unwrap();
     let (variables, constraints) = (program.layout().variables(), program.layout().constraints());
@@ -71,7 +78,43 @@ fn check(steps: usize) {
 #[test]
 fn derivatives_agree_with_finite_differences_for_any_number_of_steps() {
     for steps in [1, 2, 5, 16, 17, 40] {
-        check(steps);
+        check(steps, 1);
+    }
+}
+
+#[test]
+fn derivatives_agree_with_finite_differences_for_any_number_of_substeps() {
+    for (steps, substeps) in [(1, 2), (5, 3), (17, 4)] {
+        check(steps, substeps);
+    }
+}
+
+/// A step of m Runge–Kutta steps ends where m steps of a finer grid with its control end.
+#[test]
+fn substeps_are_the_steps_of_a_finer_grid_with_the_same_controls() {
+    let initial = [0.3, -0.2, 0.5, 0.1, 9.0];
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let (coarse, fine) = (functions(3), functions(1));
+    let one_step = |functions: &StageFunctions, grid: Grid, from: &[f64], u: &[f64]| {
+        let mut program = MultipleShooting::new(functions, grid, from).unwrap();
+        let guess = InitialGuess {
+            states: Samples::repeated(&[0.0; 5], 2),
+            controls: Samples::repeated(u, 1),
+        };
+        let z = program.decision_vector(&guess).unwrap();
+        let mut g = vec![0.0; program.layout().constraints()];
+        program.constraints(&z, true, &mut g).unwrap();
+        program.layout().defect(0).map(|row| -g[row]).collect::<Vec<f64>>()
+    };
+    let u = vector(&mut random, 2);
+    let reached = one_step(&coarse, Grid::new(0.3, 1).unwrap(), &initial, &u);
+    let mut state = initial.to_vec();
+    for _ in 0..3 {
+        let next = one_step(&fine, Grid::new(0.1, 1).unwrap(), &state, &u);
+        state[..4].copy_from_slice(&next);
+    }
+    for (reached, expected) in reached.iter().zip(&state) {
+        assert!((reached - expected).abs() < 1e-14, "{reached} {expected}");
     }
 }
 

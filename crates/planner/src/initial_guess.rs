@@ -1,11 +1,12 @@
 //! Initial guesses: trajectories to start the optimizer from.
 
+mod effort;
 mod joint_loops;
 
 use std::f64::consts::PI;
 
 use righting_multibody::{Quaternion, State};
-use righting_ocp::{InitialGuess, RungeKutta4};
+use righting_ocp::{InitialGuess, RungeKutta4, Samples};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::{Maneuver, Scenario};
@@ -27,6 +28,8 @@ pub(crate) struct InitialGuesses<'a> {
     /// x_0.
     pub(crate) initial: &'a [f64],
     pub(crate) steps: usize,
+    /// Runge–Kutta steps in each step of the grid, for motions that are simulated.
+    pub(crate) substeps: usize,
 }
 
 impl InitialGuesses<'_> {
@@ -63,19 +66,51 @@ impl InitialGuesses<'_> {
 
     /// The motion that the guess's controls make: its base turns as momentum has it.
     pub(crate) fn simulated(&self, mut guess: InitialGuess) -> InitialGuess {
-        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
-        let (mut x, mut point) = (self.initial.to_vec(), self.initial.to_vec());
-        let mut method = RungeKutta4::new(x.len());
+        self.simulate(&mut guess, 0, self.substeps);
+        guess
+    }
+
+    /// A motion with another guess's joint motion, as a share of it, on top.
+    pub(crate) fn displaced(
+        &self,
+        states: &Samples,
+        controls: &Samples,
+        by: &InitialGuess,
+        share: f64,
+    ) -> InitialGuess {
+        let mut guess = InitialGuess { states: states.clone(), controls: controls.clone() };
+        let joints = self.coordinates.joint_angle(0)..self.initial.len();
+        for node in 1..=self.steps {
+            let row = &mut guess.states.row_mut(node)[joints.clone()];
+            let change =
+                by.states.row(node)[joints.clone()].iter().zip(&self.initial[joints.clone()]);
+            row.iter_mut().zip(change).for_each(|(x, (there, here))| *x += share * (there - here));
+        }
         for step in 0..self.steps {
-            let u = guess.controls.row(step);
-            let next = method.step(step_s, &x, |stage| {
-                stage.write_point(&mut point);
-                stage.set_rates(&self.coordinates.rates(&point, u));
-            });
-            x.copy_from_slice(next);
-            guess.states.row_mut(step + 1).copy_from_slice(&x);
+            let row = guess.controls.row_mut(step).iter_mut();
+            row.zip(by.controls.row(step)).for_each(|(u, change)| *u += share * change);
         }
         guess
+    }
+
+    /// Fills in the states that follow after the first `steps` steps, each integrated in so many
+    /// Runge–Kutta steps.
+    pub(crate) fn simulate(&self, guess: &mut InitialGuess, steps: usize, substeps: usize) {
+        let step_s = self.scenario.horizon().duration_s / (self.steps * substeps) as f64;
+        let mut x = guess.states.row(steps).to_vec();
+        let mut point = x.clone();
+        let mut method = RungeKutta4::new(x.len());
+        for step in steps..self.steps {
+            let u = guess.controls.row(step);
+            for _ in 0..substeps {
+                let next = method.step(step_s, &x, |stage| {
+                    stage.write_point(&mut point);
+                    stage.set_rates(&self.coordinates.rates(&point, u));
+                });
+                x.copy_from_slice(next);
+            }
+            guess.states.row_mut(step + 1).copy_from_slice(&x);
+        }
     }
 
     /// The motion of an earlier plan of the same arm, or its image where that ends nearer to the

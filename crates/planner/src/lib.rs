@@ -37,6 +37,7 @@ pub mod library;
 mod planned;
 pub mod planner;
 pub mod reach;
+mod scaling;
 mod search;
 pub mod sparsity;
 mod symmetry;

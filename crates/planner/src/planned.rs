@@ -13,8 +13,9 @@ use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
 use righting_verifier::verify;
 
-use crate::formulation::Coordinates;
+use crate::formulation::Goal;
 use crate::hints::hints;
+use crate::scaling::Scaling;
 use crate::search::Found;
 
 /// A plan that was computed, converged or not, and verified where it converged.
@@ -41,6 +42,7 @@ pub(crate) enum Ending {
 impl Planned {
     pub(crate) fn new(
         scenario: &Scenario,
+        scaling: &Scaling,
         found: Found,
         ending: Ending,
         program: &str,
@@ -48,10 +50,11 @@ impl Planned {
         let status = match (ending, status(found.solution.status)) {
             (Ending::Interrupted, _) => Status::Interrupted,
             (Ending::TimeLimit, _) => Status::TimeLimit,
+            (Ending::Finished, Status::Interrupted) => Status::Stalled,
             (Ending::Finished, Status::Solved) if !found.is_minimum => Status::Acceptable,
             (Ending::Finished, status) => status,
         };
-        let trajectory = trajectory(scenario, &found.coordinates, &found.solution)?;
+        let trajectory = trajectory(scenario, scaling, &found)?;
         let checking = Instant::now();
         let verification = match status.is_acceptable() {
             true => verify(scenario, &trajectory),
@@ -68,7 +71,7 @@ impl Planned {
             scenario_sha256: scenario.resolved().sha256(),
             versions: versions(&found.solution, program),
             status,
-            objective: found.solution.objective,
+            objective: objective(scenario, &trajectory),
             iterations: found.solution.iterations(),
             constraint_violation: found.solution.constraint_violation,
             terminal,
@@ -78,7 +81,10 @@ impl Planned {
             reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
             notes,
             attempts: found.attempts.iter().map(attempt_record).collect(),
-            history: found.solution.history.iter().map(record).collect(),
+            history: {
+                let history = found.solution.history.iter();
+                history.map(|iteration| scaling.record(&record(iteration))).collect()
+            },
         };
         Ok(Self { solution, trajectory })
     }
@@ -120,24 +126,41 @@ fn versions(solution: &righting_ocp::OcpSolution, program: &str) -> Versions {
     }
 }
 
+/// The objective of a motion in the scenario's weights.
+fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
+    let weights = scenario.weights();
+    let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+    let controls = trajectory.intervals().iter();
+    let effort: f64 = controls.map(|interval| squares(&interval.joint_accelerations_rad_s2)).sum();
+    weights.control_per_step(scenario.horizon()) * effort
+        + Goal::of(scenario).cost(&trajectory.end().state(), &weights)
+}
+
 /// The whole motion, with the torques that it takes and their power.
 fn trajectory(
     scenario: &Scenario,
-    coordinates: &Coordinates,
-    solution: &righting_ocp::OcpSolution,
+    scaling: &Scaling,
+    found: &Found,
 ) -> Result<Trajectory, ShapeError> {
     let system = &scenario.system().model;
     let steps = scenario.horizon().steps;
     let mut nodes = Vec::with_capacity(steps + 1);
     let mut intervals = Vec::with_capacity(steps);
     for k in 0..=steps {
-        let state = coordinates.free_floating_state(solution.states.row(k));
-        let accelerations = solution.controls.row(k.min(steps - 1));
+        let state = found.coordinates.free_floating_state(found.solution.states.row(k));
+        let state = scaling.state(state);
+        let mut accelerations =
+            scaling.accelerations(found.solution.controls.row(k.min(steps - 1)));
+        for (joint, acceleration) in accelerations.iter_mut().enumerate() {
+            if found.coordinates.is_locked(joint) {
+                *acceleration = 0.0;
+            }
+        }
         let torques = system.joint_torques(
             &state.angular_rate,
             &state.joint_angles,
             &state.joint_rates,
-            accelerations,
+            &accelerations,
         );
         nodes.push(Node {
             time_s: scenario.horizon().time_s(k),
@@ -155,7 +178,7 @@ fn trajectory(
         });
         if k < steps {
             intervals.push(ControlInterval {
-                joint_accelerations_rad_s2: accelerations.to_vec(),
+                joint_accelerations_rad_s2: accelerations,
                 joint_torques_n_m: torques,
             });
         }

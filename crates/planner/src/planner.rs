@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use righting_multibody::ModelError;
 use righting_ocp::{Control, OcpError};
 use righting_results::IterationRecord;
 use righting_results::trajectory::Trajectory;
@@ -12,6 +13,7 @@ use righting_scenario::error::ShapeError;
 
 use crate::library::PlanLibrary;
 use crate::planned::{Ending, Planned};
+use crate::scaling::Scaling;
 use crate::search::Search;
 
 /// Plans maneuvers and verifies what it planned.
@@ -126,14 +128,18 @@ impl<'a> Planner<'a> {
             is_late |= limit.is_some_and(|limit| started.elapsed() > limit);
             if is_late { Control::Stop } else { observer(record) }
         };
-        let mut found = Search::new(scenario, self.threads, earlier, &mut watched)?.run()?;
+        let (measured, scaling) = Scaling::applied(scenario)?;
+        let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
+        let mut watched = |record: &IterationRecord| watched(&scaling.record(record));
+        let mut found =
+            Search::new(&measured, self.threads, earlier.as_ref(), &mut watched)?.run()?;
         found.notes.splice(..0, note);
         let ending = match (found.is_interrupted, is_late) {
             (false, _) => Ending::Finished,
             (true, true) => Ending::TimeLimit,
             (true, false) => Ending::Interrupted,
         };
-        Ok(Planned::new(scenario, found, ending, &self.program)?)
+        Ok(Planned::new(scenario, &scaling, found, ending, &self.program)?)
     }
 }
 
@@ -157,6 +163,9 @@ pub enum PlanError {
     /// The optimal control problem was refused.
     #[error(transparent)]
     Ocp(#[from] OcpError),
+    /// The system is beyond all measure.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// The parts of the trajectory do not fit together.
     #[error(transparent)]
     Shape(#[from] ShapeError),

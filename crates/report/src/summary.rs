@@ -83,6 +83,7 @@ pub fn status_phrase(status: Status) -> &'static str {
         Status::Infeasible => "stopped at a point of least infeasibility",
         Status::IterationLimit => "stopped at the iteration limit",
         Status::TimeLimit => "stopped at the time limit",
+        Status::Stalled => "given up: it made no progress any more",
         Status::Interrupted => "interrupted",
         Status::SearchDirectionTooSmall => "stopped, the search direction became too small",
         Status::Diverging => "stopped, the iterates diverge",

@@ -56,6 +56,7 @@ fn no_two_statuses_read_alike() {
         Infeasible,
         IterationLimit,
         TimeLimit,
+        Stalled,
         Interrupted,
         SearchDirectionTooSmall,
         Diverging,

@@ -125,6 +125,8 @@ pub enum Status {
     IterationLimit,
     /// Stopped by the time limit.
     TimeLimit,
+    /// Given up because it made no progress any more.
+    Stalled,
     /// Stopped by the user.
     Interrupted,
     /// The search direction became too small to make progress.

@@ -31,6 +31,9 @@ pub struct Scenario {
     /// Weights of the objective; defaults depend on the maneuver's type.
     #[serde(default)]
     pub weights: Weights,
+    /// How the end is met.
+    #[serde(rename = "final", default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<End>,
     /// Clearances.
     #[serde(default)]
     pub collision: Collision,
@@ -105,14 +108,27 @@ pub struct Horizon {
     pub steps: f64,
 }
 
-/// Weights of the objective. Each multiplies the square of its quantity in SI units and radians:
-/// `control` at every step, the others at the end. A slew's defaults are control 0.01, attitude
+/// How the end of a maneuver is met.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object: how the end is met")]
+pub struct End {
+    /// Whether the end is met as well as numbers allow, whatever that takes: a slew ends in its target
+    /// attitude and at rest, a detumble with its joints at rest. Otherwise effort and end are traded as
+    /// the weights say. By default true where no weight of the end is given
+    /// and the guess is not the constant one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hard: Option<bool>,
+}
+
+/// Weights of the objective, in SI units and radians. `control` multiplies the integral over time of the
+/// squared joint accelerations, divided by 0.05 s; each other one multiplies the square of its quantity
+/// at the end. A slew's defaults are control 0.01, attitude
 /// 1000, angular_rate 100, joint_rate 100; a detumble's control 0.01, angular_rate 100, joint_rate
 /// 1000; the rest 0.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object of weights")]
 pub struct Weights {
-    /// Joint accelerations, at every step.
+    /// Joint accelerations: ∫‖q̈‖² dt / 0.05 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub control: Option<f64>,

@@ -36,6 +36,7 @@ pub mod json;
 pub mod scenario;
 pub mod schema;
 pub mod system_description;
+mod units;
 pub mod wheels;
 
 pub use collision::CollisionModel;

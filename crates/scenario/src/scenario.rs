@@ -20,6 +20,9 @@ use crate::system_description::{SystemDescription, read_system};
 pub const MAX_STEPS: usize = 100_000;
 /// The most iterations the optimizer may be given.
 pub const MAX_ITERATIONS: usize = 1_000_000;
+/// The interval that the weight of the control is measured by, s: ∫‖q̈‖² dt over so much of it. On the
+/// paper's grid, whose intervals are of this length, that is its sum over the steps.
+pub const REFERENCE_INTERVAL_S: f64 = 0.05;
 /// The most low-discrepancy starts.
 pub const MAX_STARTS: u64 = 1000;
 /// The longest duration, s.
@@ -38,14 +41,15 @@ const TOLERANCE: Bounds = Bounds::Between(1e-14, 1e-2);
 /// A checked scenario. SI units and radians; nothing in it can be wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    system: SystemDescription,
-    initial: Initial,
-    maneuver: Maneuver,
-    horizon: Horizon,
-    weights: Weights,
-    collision: CollisionModel,
-    solver: SolverSettings,
-    resolved: file::Scenario,
+    pub(crate) system: SystemDescription,
+    pub(crate) initial: Initial,
+    pub(crate) maneuver: Maneuver,
+    pub(crate) horizon: Horizon,
+    pub(crate) weights: Weights,
+    pub(crate) is_end_hard: bool,
+    pub(crate) collision: CollisionModel,
+    pub(crate) solver: SolverSettings,
+    pub(crate) resolved: file::Scenario,
 }
 
 /// What to do.
@@ -77,8 +81,9 @@ pub struct Horizon {
     pub steps: usize,
 }
 
-/// Weights of the objective: `control` multiplies the sum over the steps of the squared joint
-/// accelerations, each other one the squared norm of its error at the last node. SI and radians.
+/// Weights of the objective: `control` multiplies the integral over time of the squared joint
+/// accelerations, divided by [`REFERENCE_INTERVAL_S`], each other one the squared norm of its error at the
+/// last node. SI and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
     /// Joint accelerations.
@@ -164,6 +169,13 @@ impl Scenario {
         check_momentum(&scenario.initial, &initial, &maneuver, &system, &place.key("initial"))?;
         let horizon = horizon(&scenario.horizon, &place.key("horizon"))?;
         let weights = weights(&scenario.weights, &maneuver, &place.key("weights"))?;
+        let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
+            Some(hard) => hard,
+            None => {
+                let is_paper = scenario.solver.guess == Some(Guess::Named(NamedGuess::Constant));
+                !is_paper && !scenario.weights.has_end()
+            }
+        };
         let solver = solver(&scenario.solver, &place.key("solver"))?;
         let clearance_m = match scenario.collision.clearance_m {
             Some(clearance_m) => {
@@ -189,11 +201,22 @@ impl Scenario {
                 attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
             },
             weights: weights.to_file(),
+            end: Some(file::End { hard: Some(is_end_hard) }),
             collision: file::Collision { clearance_m: Some(clearance_m) },
             solver: solver.to_file(),
             ..scenario
         };
-        Ok(Self { system, initial, maneuver, horizon, weights, collision, solver, resolved })
+        Ok(Self {
+            system,
+            initial,
+            maneuver,
+            horizon,
+            weights,
+            is_end_hard,
+            collision,
+            solver,
+            resolved,
+        })
     }
 
     /// Name of the scenario.
@@ -224,6 +247,21 @@ impl Scenario {
     /// Weights of the objective.
     pub fn weights(&self) -> Weights {
         self.weights
+    }
+
+    /// The same scenario with another duration and grid; [`resolved`](Self::resolved) stays as it was.
+    pub fn with_horizon(self, horizon: Horizon) -> Self {
+        Self { horizon, ..self }
+    }
+
+    /// The same scenario with other weights; [`resolved`](Self::resolved) stays as it was.
+    pub fn with_weights(self, weights: Weights) -> Self {
+        Self { weights, ..self }
+    }
+
+    /// Whether the end is met as well as numbers allow, rather than traded for effort.
+    pub fn is_end_hard(&self) -> bool {
+        self.is_end_hard
     }
 
     /// Which links keep how far from what.
@@ -400,7 +438,31 @@ fn weights(
     })
 }
 
+impl file::Weights {
+    /// Whether any weight of the end is given.
+    fn has_end(&self) -> bool {
+        let Self {
+            control: _,
+            position,
+            attitude,
+            velocity,
+            angular_rate,
+            joint_angle,
+            joint_rate,
+        } = self;
+        [position, attitude, velocity, angular_rate, joint_angle, joint_rate]
+            .iter()
+            .any(|weight| weight.is_some())
+    }
+}
+
 impl Weights {
+    /// What the control's weight multiplies the sum over a horizon's steps of the squared joint
+    /// accelerations by.
+    pub fn control_per_step(&self, horizon: Horizon) -> f64 {
+        self.control * (horizon.step_s() / REFERENCE_INTERVAL_S)
+    }
+
     /// The weights of a scenario that gives none.
     pub fn defaults(maneuver: &Maneuver) -> Self {
         let none = Self {

@@ -63,8 +63,11 @@ mod limits;
 pub mod model;
 mod requirements;
 mod simulation;
+mod tolerances;
 mod verify;
 
 pub use directory::{Verified, verify_directory};
 pub use dormand_prince::DormandPrince;
-pub use verify::{ATTITUDE_ERROR, DETUMBLE_AT_REST_DEG_S, SLEW_AT_REST_DEG_S, simulate, verify};
+pub use verify::{
+    ATTITUDE_ERROR, DETUMBLE_AT_REST, SLEW_AT_REST_DEG_S, TRADED_DETUMBLE_AT_REST, simulate, verify,
+};

@@ -7,11 +7,8 @@ use crate::ledger::{Ledger, Subject, Worst};
 use crate::model::State;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
+use crate::tolerances::LimitTolerances;
 
-/// How far a node may be past a limit (rad, rad/s, rad/s², m).
-const AT_NODES: f64 = 1e-6;
-/// How far the motion between nodes may be past a limit (rad, rad/s, m).
-const BETWEEN_NODES: f64 = 1e-3;
 /// Places looked at within an interval.
 const SAMPLES: usize = 10;
 
@@ -44,7 +41,7 @@ pub(super) fn check(
         "clearance from body at nodes",
         "clearance between links at nodes",
     ];
-    let mut at_nodes = Limits::new(asked, names, AT_NODES);
+    let mut at_nodes = Limits::new(asked, names, &asked.tolerances.at_nodes);
     for node in trajectory.nodes() {
         at_nodes.look(&node.joint_angles_rad, &node.joint_rates_rad_s, node.time_s);
     }
@@ -54,8 +51,9 @@ pub(super) fn check(
         "clearance from body between nodes",
         "clearance between links between nodes",
     ];
-    let mut between = Limits::new(asked, names, BETWEEN_NODES);
-    let mut acceleration = Worst::new("joint acceleration", "rad/s²", AT_NODES);
+    let mut between = Limits::new(asked, names, &asked.tolerances.between_nodes);
+    let mut acceleration =
+        Worst::new("joint acceleration", "rad/s²", asked.tolerances.at_nodes.acceleration_rad_s2);
     let mut joints = Joints::new(asked.joint_limits.len());
     for (k, (interval, state)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate()
     {
@@ -113,14 +111,18 @@ impl Joints {
 
 impl<'a> Limits<'a> {
     /// Limits on angles, rates, clearances from the body and between links.
-    fn new(asked: &'a Requirements, names: [&'static str; 4], tolerance: f64) -> Self {
+    fn new(
+        asked: &'a Requirements,
+        names: [&'static str; 4],
+        tolerances: &LimitTolerances,
+    ) -> Self {
         let [angle, rate, body, links] = names;
         Self {
             asked,
-            angle: Worst::new(angle, "rad", tolerance),
-            rate: Worst::new(rate, "rad/s", tolerance),
-            body: Worst::new(body, "m", tolerance),
-            links: Worst::new(links, "m", tolerance),
+            angle: Worst::new(angle, "rad", tolerances.angle_rad),
+            rate: Worst::new(rate, "rad/s", tolerances.rate_rad_s),
+            body: Worst::new(body, "m", tolerances.distance_m),
+            links: Worst::new(links, "m", tolerances.distance_m),
             origins: vec![Vector3::zeros(); asked.model.joint_count() + 1],
         }
     }

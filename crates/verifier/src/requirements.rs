@@ -7,6 +7,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 use crate::clearances::Clearances;
 use crate::goal::Goal;
 use crate::model::{BaseAcceleration, Model, Motion, State};
+use crate::tolerances::Tolerances;
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]
@@ -19,6 +20,9 @@ pub(super) struct Requirements {
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
     pub clearances: Clearances,
+    pub tolerances: Tolerances,
+    /// Whether the end is met as well as numbers allow.
+    pub is_end_hard: bool,
 }
 
 /// What a joint may do.
@@ -38,15 +42,31 @@ impl Requirements {
         let system = scenario.resolved_system();
         let model = Model::new(system);
         let start = start(&model, &file.initial);
+        let clearance_m = file.collision.clearance_m.unwrap_or(0.0);
+        let duration_s = scenario.horizon().duration_s;
         Self {
+            tolerances: Tolerances::new(
+                size_m(system),
+                clearance_m,
+                duration_s,
+                State::from_slice(&start).angular_rate.norm(),
+            ),
+            is_end_hard: file.end.as_ref().and_then(|end| end.hard).unwrap_or(false),
             goal: Goal::new(&file.maneuver, &State::from_slice(&start)),
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
-            clearances: Clearances::new(system, file.collision.clearance_m.unwrap_or(0.0)),
+            clearances: Clearances::new(system, clearance_m),
             model,
             start,
         }
     }
+}
+
+/// The length of the arm stretched out, from the base's center of mass, m.
+fn size_m(system: &file::System) -> f64 {
+    let links: f64 = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).sum();
+    let size_m = Vector3::from(system.mount.position_m).norm() + links;
+    if size_m > 0.0 { size_m } else { 1.0 }
 }
 
 impl JointLimits {

@@ -12,23 +12,20 @@ use crate::limits;
 use crate::model::{BaseAcceleration, Motion, State};
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
+use crate::tolerances::{Tolerances, at_rest_deg_s};
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;
-/// A slew ends at rest when neither the base's rate nor the norm of all joint rates exceeds this,
-/// deg/s.
+/// A slew ends at rest when neither the base's rate nor the norm of all joint rates exceeds this, deg/s:
+/// in 30 s, and in a longer or shorter maneuver so much less or more.
 pub const SLEW_AT_REST_DEG_S: f64 = 0.1;
-/// A detumble ends with the arm at rest when the norm of all joint rates does not exceed this, deg/s.
-/// What is left trades against the base's rate, so an optimum leaves some.
-pub const DETUMBLE_AT_REST_DEG_S: f64 = 1.0;
+/// A detumble whose end is hard ends with the arm at rest when the norm of all joint rates does not exceed
+/// this share of the rate at which the base would drift.
+pub const DETUMBLE_AT_REST: f64 = 0.005;
+/// The same where effort and end are traded: what is left of the joints' rates trades against the base's,
+/// so an optimum leaves some.
+pub const TRADED_DETUMBLE_AT_REST: f64 = 0.05;
 
-const TIME_S: f64 = 1e-9;
-const QUATERNION_NORM: f64 = 1e-5;
-const ATTITUDE_RAD: f64 = 1e-4;
-const ANGULAR_RATE_RAD_S: f64 = 1e-4;
-const POSITION_M: f64 = 1e-4;
-const VELOCITY_M_S: f64 = 1e-4;
-const JOINT_RAD: f64 = 1e-6;
 const MOMENTUM: f64 = 1e-4;
 const TORQUE: f64 = 1e-6;
 
@@ -44,7 +41,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     check_start(&asked, trajectory, &mut ledger);
     let start = State::of_node(trajectory.start()).to_vec();
     let simulation = Simulation::new(&asked.model, asked.horizon, &start, trajectory.intervals());
-    check_motion(trajectory, &simulation, &mut ledger);
+    check_motion(&asked.tolerances, trajectory, &simulation, &mut ledger);
     check_momentum(&asked, trajectory, &mut ledger);
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
@@ -71,7 +68,7 @@ pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verificati
 
 /// Joints, steps and times are the scenario's.
 fn shape_fits(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) -> bool {
-    let Horizon { duration_s, steps } = asked.horizon;
+    let Horizon { steps, .. } = asked.horizon;
     let counts = [
         ("number of joints", trajectory.joints(), asked.model.joint_count()),
         ("number of steps", trajectory.steps(), steps),
@@ -85,7 +82,7 @@ fn shape_fits(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger
     let mut times = Worst::new("time grid", "s", 0.0);
     for (k, node) in trajectory.nodes().iter().enumerate() {
         let error_s = (node.time_s - asked.horizon.time_s(k)).abs();
-        times.at_most(error_s, TIME_S * duration_s.max(1.0), None, Some(node.time_s));
+        times.at_most(error_s, asked.tolerances.time_s, None, Some(node.time_s));
     }
     ledger.add(times)
 }
@@ -95,14 +92,20 @@ fn check_start(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledge
     let start = trajectory.start();
     let found = State::of_node(start).to_vec();
     let mut worst = Worst::new("start", "", 0.0);
-    for (found, asked) in found.iter().zip(&asked.start) {
-        worst.at_most((found - asked).abs(), JOINT_RAD, None, Some(start.time_s));
+    let tolerances = asked.tolerances.of_start(asked.model.joint_count());
+    for ((found, asked), tolerance) in found.iter().zip(&asked.start).zip(tolerances) {
+        worst.at_most((found - asked).abs(), tolerance, None, Some(start.time_s));
     }
     ledger.add(worst);
 }
 
 /// Every node is where the second integration says.
-fn check_motion(trajectory: &Trajectory, simulation: &Simulation, ledger: &mut Ledger) {
+fn check_motion(
+    tolerances: &Tolerances,
+    trajectory: &Trajectory,
+    simulation: &Simulation,
+    ledger: &mut Ledger,
+) {
     let mut norm = Worst::new("quaternion norm error", "", 0.0);
     let mut attitude = Worst::new("attitude mismatch", "rad", 0.0);
     let mut angular_rate = Worst::new("angular rate mismatch", "rad/s", 0.0);
@@ -114,21 +117,23 @@ fn check_motion(trajectory: &Trajectory, simulation: &Simulation, ledger: &mut L
         let time_s = Some(node.time_s);
         let found = State::of_node(node);
         let length = found.attitude.norm();
-        norm.at_most((length - 1.0).abs(), QUATERNION_NORM, None, time_s);
+        norm.at_most((length - 1.0).abs(), tolerances.quaternion_norm, None, time_s);
         let [is, shall_be] = [found, truth].map(|x| UnitQuaternion::from_quaternion(x.attitude));
-        attitude.at_most(is.angle_to(&shall_be), ATTITUDE_RAD, None, time_s);
+        attitude.at_most(is.angle_to(&shall_be), tolerances.attitude_rad, None, time_s);
         let rate = (found.angular_rate - truth.angular_rate).norm();
-        angular_rate.at_most(rate, ANGULAR_RATE_RAD_S, None, time_s);
-        position.at_most((found.position - truth.position).norm(), POSITION_M, None, time_s);
-        velocity.at_most((found.velocity - truth.velocity).norm(), VELOCITY_M_S, None, time_s);
+        angular_rate.at_most(rate, tolerances.angular_rate_rad_s, None, time_s);
+        let error_m = (found.position - truth.position).norm();
+        position.at_most(error_m, tolerances.position_m, None, time_s);
+        let error_m_s = (found.velocity - truth.velocity).norm();
+        velocity.at_most(error_m_s, tolerances.velocity_m_s, None, time_s);
         let joints = [
-            (&mut joint_angle, found.joint_angles, truth.joint_angles),
-            (&mut joint_rate, found.joint_rates, truth.joint_rates),
+            (&mut joint_angle, found.joint_angles, truth.joint_angles, tolerances.joint_angle_rad),
+            (&mut joint_rate, found.joint_rates, truth.joint_rates, tolerances.joint_rate_rad_s),
         ];
-        for (worst, found, truth) in joints {
+        for (worst, found, truth, tolerance) in joints {
             for (joint, (found, truth)) in found.iter().zip(truth).enumerate() {
                 let subject = Some(Subject::Joint(joint));
-                worst.at_most((found - truth).abs(), JOINT_RAD, subject, time_s);
+                worst.at_most((found - truth).abs(), tolerance, subject, time_s);
             }
         }
     }
@@ -159,7 +164,7 @@ fn check_momentum(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Le
         let (momentum, center) = momentum_and_center(&state);
         changes.push((momentum - first_momentum).norm());
         let distance_m = (center - first_center).norm();
-        wander.at_most(distance_m, POSITION_M, None, Some(node.time_s));
+        wander.at_most(distance_m, asked.tolerances.position_m, None, Some(node.time_s));
         // The arm's momentum alone, as if the base stood still.
         let held = State { angular_rate: Vector3::zeros(), velocity: Vector3::zeros(), ..state };
         scale = scale.max(momentum_and_center(&held).0.norm());
@@ -192,8 +197,8 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
     let largest_n_m = largest(&mut torques.iter());
     let fastest_rad_s =
         largest(&mut trajectory.nodes().iter().flat_map(|node| &node.joint_rates_rad_s));
-    let tolerance_n_m = TORQUE * largest_n_m.max(1e-3);
-    let tolerance_w = tolerance_n_m * fastest_rad_s.max(1e-3) * joints as f64;
+    let tolerance_n_m = TORQUE * largest_n_m;
+    let tolerance_w = tolerance_n_m * fastest_rad_s * joints as f64;
     let mut torque = Worst::new("joint torque mismatch", "N m", 0.0);
     let mut power = Worst::new("power mismatch", "W", 0.0);
     for (k, (node, torques)) in
@@ -227,9 +232,16 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
     let (base_rate, joint_rate) = match asked.goal {
         Goal::Attitude(_) => {
             single("attitude error at the end", "", reached.attitude_error, ATTITUDE_ERROR);
-            (SLEW_AT_REST_DEG_S, SLEW_AT_REST_DEG_S)
+            let rest_deg_s = at_rest_deg_s(SLEW_AT_REST_DEG_S, asked.horizon.duration_s);
+            (rest_deg_s, rest_deg_s)
         }
-        Goal::LessRate { start_deg_s } => (start_deg_s, DETUMBLE_AT_REST_DEG_S),
+        Goal::LessRate { start_deg_s } => {
+            let share = match asked.is_end_hard {
+                true => DETUMBLE_AT_REST,
+                false => TRADED_DETUMBLE_AT_REST,
+            };
+            (start_deg_s, share * start_deg_s)
+        }
     };
     single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);
     single("joint rate at the end", "deg/s", reached.joint_rate_deg_s, joint_rate);

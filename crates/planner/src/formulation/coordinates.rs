@@ -21,6 +21,8 @@ pub(crate) struct Coordinates {
     momentum: Vector3<f64>,
     /// Where the system's centre of mass rests, inertial axes, m.
     center: Vector3<f64>,
+    /// Whether a joint is locked: its control does nothing, and its state stays what it is.
+    locked: Arc<[bool]>,
 }
 
 impl Coordinates {
@@ -34,7 +36,14 @@ impl Coordinates {
             &initial.joint_rates_rad_s,
         );
         let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
-        Self { formulation, momentum: attitude.to_inertial(&h_body), center, system }
+        let limits = scenario.system().joint_limits.iter();
+        let locked = limits.map(|limits| limits.angle_min_rad == limits.angle_max_rad).collect();
+        Self { formulation, momentum: attitude.to_inertial(&h_body), center, system, locked }
+    }
+
+    /// Whether a joint is locked.
+    pub(crate) fn is_locked(&self, joint: usize) -> bool {
+        self.locked[joint]
     }
 
     fn joints(&self) -> usize {
@@ -50,6 +59,14 @@ impl Coordinates {
         match self.formulation {
             Formulation::Full => 13,
             Formulation::Reduced => 4,
+        }
+    }
+
+    /// The attitude among the states.
+    pub(crate) fn attitude(&self) -> std::ops::Range<usize> {
+        match self.formulation {
+            Formulation::Full => 3..7,
+            Formulation::Reduced => 0..4,
         }
     }
 
@@ -104,12 +121,15 @@ impl Coordinates {
 
     /// ẋ for the joint accelerations `u`.
     pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
+        let moving = u.iter().zip(self.locked.iter());
+        let u: Vec<T> =
+            moving.map(|(&u, &is_locked)| if is_locked { T::from(0.0) } else { u }).collect();
         match self.formulation {
-            Formulation::Full => self.system.state_derivative(x, u),
+            Formulation::Full => self.system.state_derivative(x, &u),
             Formulation::Reduced => {
                 let attitude = reduced_attitude(x);
                 let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
-                [&turning[..], self.joint_rates(x), u].concat()
+                [&turning[..], self.joint_rates(x), &u].concat()
             }
         }
     }

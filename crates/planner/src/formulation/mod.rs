@@ -1,7 +1,7 @@
 //! The optimal control problem of a scenario.
 //!
 //! ```text
-//! min  Σ_{k<N} w_u ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
+//! min  Σ_{k<N} w_u (Δt / 0.05 s) ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
 //! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)²
 //! ```
 //!
@@ -48,6 +48,9 @@ impl FormulatedManeuver {
 
         let mut state_bounds = ComponentBounds::unbounded(states);
         for (joint, limits) in limits.iter().enumerate() {
+            if coordinates.is_locked(joint) {
+                continue;
+            }
             let (angle, rate) = (coordinates.joint_angle(joint), coordinates.joint_rate(joint));
             state_bounds.lower[angle] = limits.angle_min_rad;
             state_bounds.upper[angle] = limits.angle_max_rad;
@@ -60,11 +63,12 @@ impl FormulatedManeuver {
         let dynamics = coordinates.clone();
         let terminal = coordinates.clone();
         let weights = scenario.weights();
+        let control = weights.control_per_step(scenario.horizon());
         let goal = Goal::of(scenario);
         let clearances = Clearances::new(scenario);
         let path = coordinates.clone();
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
-            .running_cost(move |_, u| sum_of_squares(u) * weights.control)
+            .running_cost(move |_, u| sum_of_squares(u) * control)
             .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
             .state_bounds(state_bounds)
             .control_bounds(ComponentBounds::symmetric(&accelerations))
@@ -81,13 +85,13 @@ impl FormulatedManeuver {
 }
 
 /// The state that the terminal cost asks for; rates and velocity are zero.
-struct Goal {
+pub(crate) struct Goal {
     attitude: Quaternion<f64>,
     joint_angles_rad: Vec<f64>,
 }
 
 impl Goal {
-    fn of(scenario: &Scenario) -> Self {
+    pub(crate) fn of(scenario: &Scenario) -> Self {
         let initial = scenario.initial();
         let attitude = match scenario.maneuver() {
             Maneuver::Slew(slew) => slew.target,
@@ -96,7 +100,7 @@ impl Goal {
         Self { attitude, joint_angles_rad: initial.joint_angles_rad.clone() }
     }
 
-    fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {
+    pub(crate) fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {
         let desired = Quaternion::from_array(self.attitude.to_array().map(T::from));
         let attitude_error = state.attitude.error_vector(&desired);
         let joint_errors: Vec<T> = state

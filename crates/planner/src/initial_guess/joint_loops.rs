@@ -60,9 +60,18 @@ impl InitialGuesses<'_> {
             .map(|(turns, phase)| {
                 let circle = circle.started_at(phase as f64 * FRAC_PI_2);
                 let looped = self.scaled(&circle, turns, &axis, angle_rad);
-                self.with_attitude_between(looped, &axis, angle_rad)
+                self.turning_about(looped, &axis, angle_rad)
             })
             .collect()
+    }
+
+    /// Loops that turn the base by `angle_rad` about `axis` once around, from each quarter of the loop;
+    /// none where no small loop does.
+    pub(super) fn single_loops(&self, axis: &Vector3<f64>, angle_rad: f64) -> Vec<InitialGuess> {
+        let curvature = self.curvature(&self.scenario.initial().joint_angles_rad);
+        let Some(circle) = curvature.best_circle(axis) else { return Vec::new() };
+        let phases = (0..PHASES).map(|phase| circle.started_at(phase as f64 * FRAC_PI_2));
+        phases.map(|circle| self.scaled(&circle, 1, axis, angle_rad)).collect()
     }
 
     /// The loop of the size at which it turns the base by `angle_rad` about `axis`, or as large a one
@@ -118,8 +127,15 @@ impl InitialGuesses<'_> {
         self.simulated(guess)
     }
 
+    /// The same joint motion while the base turns evenly to `target`, from rest to rest.
+    pub(crate) fn turning_to(&self, guess: InitialGuess, target: &Quaternion<f64>) -> InitialGuess {
+        let start = self.scenario.initial().attitude;
+        let (axis, angle_rad) = start.conjugate().product(target).to_axis_angle();
+        self.turning_about(guess, &axis, angle_rad)
+    }
+
     /// The same joint motion while the base turns evenly about `axis`, from rest to rest.
-    fn with_attitude_between(
+    fn turning_about(
         &self,
         mut guess: InitialGuess,
         axis: &Vector3<f64>,
@@ -156,7 +172,7 @@ impl InitialGuesses<'_> {
     }
 
     /// The columns of A: the base's rate for one joint's unit rate.
-    fn connection(&self, angles: &[f64]) -> Vec<Vector3<f64>> {
+    pub(super) fn connection(&self, angles: &[f64]) -> Vec<Vector3<f64>> {
         let joints = angles.len();
         (0..joints)
             .map(|joint| {
@@ -244,6 +260,7 @@ mod tests {
             coordinates: &coordinates,
             initial: &initial,
             steps: STEPS,
+            substeps: 1,
         });
     }
 

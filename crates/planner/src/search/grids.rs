@@ -1,7 +1,11 @@
 //! The grid on which initial guesses are ranked, and the meshes between it and the asked one.
 
+use std::num::NonZeroUsize;
+
 use righting_ocp::{Grid, OcpError};
-use righting_scenario::scenario::Scenario;
+use righting_scenario::scenario::{Horizon, Scenario};
+
+use crate::scaling::beginning_s;
 
 /// Steps of the grid on which guesses are ranked: coarse enough that five of them cost less than
 /// the asked grid, fine enough to tell the optima apart.
@@ -11,16 +15,73 @@ const COARSE_STEPS: usize = 20;
 const COARSE_TURN_RAD: f64 = 0.46;
 /// But no more than these.
 const MOST_COARSE_STEPS: usize = 120;
+/// So far may a base that turns by itself turn in a step, rad: the same of a motion that never rests.
+const COARSE_SPIN_RAD: f64 = 0.35;
+/// The beginning of a longer horizon has so many, integrated in several Runge–Kutta steps each, …
+const BEGINNING_STEPS: usize = 120;
+/// … this many at most.
+const MOST_SUBSTEPS: usize = 16;
 /// How much finer than the mesh before it a mesh may be.
 const REFINEMENT: usize = 6;
 
-/// The grid on which guesses are ranked.
-pub(super) fn coarse(scenario: &Scenario, asked: &Grid) -> Result<Grid, OcpError> {
-    let rates = scenario.system().joint_limits.iter().map(|limits| limits.rate_max_rad_s);
-    let turn_rad = asked.duration_s() * rates.fold(0.0, f64::max);
-    let steps = (turn_rad / COARSE_TURN_RAD).ceil() as usize;
-    let steps = steps.clamp(COARSE_STEPS, MOST_COARSE_STEPS);
-    asked.with_steps(asked.steps().min(steps))
+/// What initial guesses are ranked on: the beginning of the asked horizon in fewer steps.
+///
+/// That is the whole horizon, but for a base that spins fast for long: nothing is lost when the arm
+/// holds still in the rest of a long detumble, which no coarse grid could follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ranking {
+    /// Steps of the asked grid in the beginning.
+    pub(super) asked_steps: usize,
+    /// Steps that the beginning is divided into.
+    pub(super) steps: usize,
+    /// Runge–Kutta steps in each of them.
+    pub(super) substeps: NonZeroUsize,
+}
+
+impl Ranking {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let Horizon { duration_s, steps } = scenario.horizon();
+        let rates = scenario.system().joint_limits.iter().map(|limits| limits.rate_max_rad_s);
+        let turn_rad = duration_s * rates.fold(0.0, f64::max);
+        let for_joints =
+            ((turn_rad / COARSE_TURN_RAD).ceil() as usize).clamp(COARSE_STEPS, MOST_COARSE_STEPS);
+        let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
+        let for_spin = (spin_rad / COARSE_SPIN_RAD).ceil() as usize;
+        if beginning_s(scenario) >= duration_s * (1.0 - 1e-9) {
+            let steps_of_ranking = steps.min(for_joints.max(for_spin));
+            return Self {
+                asked_steps: steps,
+                steps: steps_of_ranking,
+                substeps: substeps(for_spin, steps_of_ranking),
+            };
+        }
+        let share = beginning_s(scenario) / duration_s;
+        let asked_steps = ((share * steps as f64).ceil() as usize).clamp(1, steps);
+        let steps = asked_steps.min(BEGINNING_STEPS);
+        let for_spin = (share * for_spin as f64).ceil() as usize;
+        Self { asked_steps, steps, substeps: substeps(for_spin, steps) }
+    }
+
+    /// The grid, from the asked one.
+    pub(super) fn grid(self, asked: &Grid) -> Result<Grid, OcpError> {
+        asked.beginning(self.asked_steps, self.steps)
+    }
+
+    /// The beginning of the asked grid, its steps as they are.
+    pub(super) fn asked_grid(self, asked: &Grid) -> Result<Grid, OcpError> {
+        asked.beginning(self.asked_steps, self.asked_steps)
+    }
+
+    /// The scenario with the beginning of its horizon alone, on the grid of ranking.
+    pub(super) fn scenario(self, scenario: &Scenario) -> Scenario {
+        let duration_s = scenario.horizon().step_s() * self.asked_steps as f64;
+        scenario.clone().with_horizon(Horizon { duration_s, steps: self.steps })
+    }
+}
+
+/// How many Runge–Kutta steps each of `steps` steps takes where so many are needed in all.
+fn substeps(needed: usize, steps: usize) -> NonZeroUsize {
+    NonZeroUsize::new(needed.div_ceil(steps).min(MOST_SUBSTEPS)).unwrap_or(NonZeroUsize::MIN)
 }
 
 /// The numbers of steps between those of a coarse grid and those of a fine one.

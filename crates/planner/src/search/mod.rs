@@ -1,18 +1,24 @@
 //! The solves that lead to a plan.
 //!
 //! 1. Several initial guesses are solved on a coarse grid, in the reduced form, and ranked by their
-//!    objective ([`Search::best_coarse_solution`]).
+//!    objective ([`Search::coarse_solutions`]).
 //! 2. The best is carried over finer meshes to the asked grid and form ([`Search::refined`]). Where
 //!    that fails, or nothing was ranked, the asked grid is solved from the constant guess.
-//! 3. Where the Lagrangian curves downwards at the solution, it is no minimum: the search leaves it
+//! 3. Where the asked steps are too long for how the base turns, they are integrated in several, and the
+//!    solution follows ([`Search::integrated_well`]).
+//! 4. Where the Lagrangian curves downwards at the solution, it is no minimum: the search leaves it
 //!    along that direction ([`Search::leave_saddle`]).
 
+mod accuracy;
 mod batch;
 mod grids;
+mod hold;
+mod hops;
 mod model;
 mod negative_curvature;
 mod portfolio;
 mod settings;
+mod stall;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -28,7 +34,11 @@ use righting_scenario::scenario::Scenario;
 
 use crate::formulation::Coordinates;
 use batch::Batch;
+use grids::Ranking;
 use model::Model;
+
+/// How many coarse solutions are carried to the asked grid, at most, until one gets there.
+const MOST_REFINED: usize = 3;
 
 /// The solves that lead to a plan.
 pub(crate) struct Search<'a> {
@@ -39,6 +49,10 @@ pub(crate) struct Search<'a> {
     ranking_model: Option<Model>,
     /// The asked grid.
     grid: Grid,
+    /// What guesses are ranked on.
+    ranking: Ranking,
+    /// The scenario as it is ranked.
+    ranked: Scenario,
     /// How many guesses are solved at a time at most.
     threads: NonZeroUsize,
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
@@ -82,16 +96,22 @@ impl<'a> Search<'a> {
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
         let formulation = scenario.solver().formulation;
-        let model = Model::compile(scenario, formulation)?;
+        let ranking = Ranking::of(scenario);
+        let mut model = Model::compile(scenario, formulation, ranking.substeps)?;
+        if let Some(substeps) = accuracy::substeps_of_spin(scenario) {
+            model.take_substeps(substeps)?;
+        }
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
         let ranking_model = match ranks && formulation != Formulation::Reduced {
-            true => Some(Model::compile(scenario, Formulation::Reduced)?),
+            true => Some(Model::compile(scenario, Formulation::Reduced, ranking.substeps)?),
             false => None,
         };
         Ok(Self {
             scenario,
             model,
             ranking_model,
+            ranking,
+            ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
             threads,
             on_iteration,
@@ -106,19 +126,26 @@ impl<'a> Search<'a> {
     /// Makes the solves.
     pub(crate) fn run(mut self) -> Result<Found, OcpError> {
         let started = Instant::now();
-        let coarse = self.best_coarse_solution()?;
+        let coarse = self.coarse_solutions()?;
         let guess = started.elapsed();
 
         let started = Instant::now();
-        let refined = match coarse {
-            Some(coarse) => self.refined(coarse)?,
-            None => None,
+        let is_part = self.ranking.asked_steps < self.grid.steps();
+        let mut found = None;
+        for solution in coarse.into_iter().take(MOST_REFINED) {
+            found = if is_part { self.held_after(solution)? } else { self.refined(solution)? };
+            if found.is_some() || self.is_interrupted() {
+                break;
+            }
+        }
+        let (solution, is_minimum) = match found {
+            Some(solution) if is_part => (solution, true),
+            Some(solution) => self.finished(solution)?,
+            None => {
+                let solution = self.solved_from_constant_guess()?;
+                self.finished(solution)?
+            }
         };
-        let solution = match refined {
-            Some(solution) => solution,
-            None => self.solved_from_constant_guess()?,
-        };
-        let (solution, is_minimum) = self.leave_saddle(solution)?;
         Ok(Found {
             solution,
             is_minimum,
@@ -132,42 +159,65 @@ impl<'a> Search<'a> {
         })
     }
 
+    /// A solution on the asked grid, integrated well and, if there is one, at a minimum; false beside it
+    /// says that it is at none.
+    fn finished(&mut self, solution: OcpSolution) -> Result<(OcpSolution, bool), OcpError> {
+        let solution = self.integrated_well(solution, self.grid)?;
+        self.leave_saddle(solution)
+    }
+
     fn is_interrupted(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The best solution on the coarse grid, in the reduced form; none if nothing is ranked or no
-    /// guess converged.
-    fn best_coarse_solution(&mut self) -> Result<Option<OcpSolution>, OcpError> {
-        let grid = grids::coarse(self.scenario, &self.grid)?;
+    /// The solutions on the grid of ranking, in the reduced form, the best first; none if nothing is
+    /// ranked or no guess converged.
+    fn coarse_solutions(&mut self) -> Result<Vec<OcpSolution>, OcpError> {
+        let grid = self.ranking.grid(&self.grid)?;
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
-        let guesses = model.initial_guesses(self.scenario, grid.steps());
+        let guesses = model.initial_guesses(&self.ranked, grid.steps());
         let cold = settings::coarse(self.scenario);
-        let mut starts: Vec<(InitialGuess, Settings)> =
-            portfolio::ranked_guesses(self.scenario, &guesses)
-                .into_iter()
-                .map(|guess| (guess, cold.clone()))
-                .collect();
-        if let Some(earlier) = self.earlier {
-            if starts.is_empty() {
-                starts.push((guesses.constant(), cold.clone()));
+        let mut batches = portfolio::ranked_guesses(&self.ranked, &guesses);
+        if batches.is_empty() && self.earlier.is_some() {
+            batches.push(vec![guesses.constant()]);
+        }
+        let mut batches: Vec<Vec<(InitialGuess, Settings)>> = batches
+            .into_iter()
+            .map(|batch| batch.into_iter().map(|guess| (guess, cold.clone())).collect())
+            .collect();
+        if let (Some(earlier), Some(first)) = (self.earlier, batches.first_mut()) {
+            first.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
+        }
+        let mut solutions = Vec::new();
+        for (number, batch) in batches.into_iter().enumerate() {
+            solutions.append(&mut self.converged(grid, batch)?);
+            let objectives: Vec<f64> = solutions.iter().map(|found| found.objective).collect();
+            if portfolio::agree(number + 1, &objectives) || self.is_interrupted() {
+                break;
             }
-            starts.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
         }
-        if starts.is_empty() {
-            return Ok(None);
+        if portfolio::hops(self.scenario) {
+            self.hop(grid, &mut solutions)?;
         }
+        solutions.sort_by(|a, b| a.objective.total_cmp(&b.objective));
+        Ok(solutions)
+    }
+
+    /// The solutions from a batch of starts that converge; what the grid cannot follow is no start.
+    fn converged(
+        &mut self,
+        grid: Grid,
+        mut starts: Vec<(InitialGuess, Settings)>,
+    ) -> Result<Vec<OcpSolution>, OcpError> {
+        starts.retain(|(guess, _)| guess.states.first_not_finite().is_none());
+        let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let batch = Batch { model, grid, starts: &starts };
-        let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        let mut best: Option<OcpSolution> = None;
-        for mut solution in solutions {
+        let mut solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
+        for solution in &mut solutions {
             self.attempts.append(&mut solution.attempts);
-            let is_better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
-            if solution.status.is_success() && is_better {
-                best = Some(solution);
-            }
         }
-        Ok(best)
+        solutions.retain(|solution| solution.status.is_success());
+        Ok(solutions)
     }
 
     /// The asked grid, solved from the state held at the start.
@@ -182,23 +232,32 @@ impl<'a> Search<'a> {
 
     /// The coarse solution carried to the asked grid and form; none if that fails on the way.
     fn refined(&mut self, coarse: OcpSolution) -> Result<Option<OcpSolution>, OcpError> {
-        let mut meshes = grids::between(coarse.controls.len(), self.grid.steps());
+        self.refined_to(self.grid, coarse)
+    }
+
+    /// The coarse solution carried to `grid`, with the steps of the asked one, and the asked form.
+    fn refined_to(
+        &mut self,
+        grid: Grid,
+        coarse: OcpSolution,
+    ) -> Result<Option<OcpSolution>, OcpError> {
+        let mut meshes = grids::between(coarse.controls.len(), grid.steps());
         let mut start = coarse;
         if self.ranking_model.is_some() {
             // The forms differ in what they integrate, and so most on a coarse grid: change over on
             // the next one.
-            let steps = if meshes.is_empty() { self.grid.steps() } else { meshes.remove(0) };
-            start = self.in_asked_form(self.grid.with_steps(steps)?, start)?;
+            let steps = if meshes.is_empty() { grid.steps() } else { meshes.remove(0) };
+            start = self.in_asked_form(grid.with_steps(steps)?, start)?;
             if !start.status.is_success() {
                 return Ok(None);
             }
         }
         let settings = settings::delivered(self.scenario);
         let on_iteration = stoppable(self.on_iteration, &self.stop);
-        let mut solution = self.model.refine(self.grid, &meshes, start, &settings, on_iteration)?;
+        let mut solution = self.model.refine(grid, &meshes, start, &settings, on_iteration)?;
         self.attempts.append(&mut solution.attempts);
-        let is_on_asked_grid = solution.controls.len() == self.grid.steps();
-        Ok((is_on_asked_grid && solution.status.is_success()).then_some(solution))
+        let has_arrived = solution.controls.len() == grid.steps();
+        Ok((has_arrived && solution.status.is_success()).then_some(solution))
     }
 
     /// A solution of the ranking model, refined to `grid` and solved there in the asked form.
@@ -208,7 +267,7 @@ impl<'a> Search<'a> {
         let on_iteration = stoppable(self.on_iteration, &self.stop);
         let mut refined = ranking_model.refine(grid, &[], start, &settings, on_iteration)?;
         self.attempts.append(&mut refined.attempts);
-        let guess = self.model.guess_from(ranking_model, &refined);
+        let guess = self.model.guess_along(ranking_model, &refined.states, &refined.controls);
         let close = close_guess_settings(&settings);
         let on_iteration = stoppable(self.on_iteration, &self.stop);
         let mut solution = self.model.solve(grid, guess, &close, on_iteration)?;

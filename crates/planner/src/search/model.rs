@@ -1,3 +1,5 @@
+use std::num::NonZeroUsize;
+
 use righting_ocp::{
     Control, Curvature, Grid, InitialGuess, MeshRefinement, MultipleShooting, OcpError,
     OcpSolution, OcpStart, ReducedHessian, Samples, Settings, StageFunctions,
@@ -9,6 +11,10 @@ use righting_scenario::scenario::Scenario;
 use crate::formulation::{Coordinates, FormulatedManeuver};
 use crate::initial_guess::InitialGuesses;
 use crate::planned::record;
+use crate::search::stall::StallCheck;
+
+/// Two steps whose lengths differ by no more than this share are as long.
+const SAME_STEP: f64 = 1e-9;
 
 /// A form of the problem with its compiled functions.
 pub(super) struct Model {
@@ -16,13 +22,36 @@ pub(super) struct Model {
     /// x_0.
     pub(super) initial: Vec<f64>,
     pub(super) functions: StageFunctions,
+    /// The same with one Runge–Kutta step in each step of the grid.
+    plain: StageFunctions,
+    /// The same for the asked grid, if a step of that needs more Runge–Kutta steps than one.
+    finer: Option<StageFunctions>,
+    /// Length of a step of the asked grid.
+    asked_step_s: f64,
 }
 
 impl Model {
-    pub(super) fn compile(scenario: &Scenario, formulation: Formulation) -> Result<Self, OcpError> {
+    /// A form, with so many Runge–Kutta steps in a step of the grids of ranking.
+    pub(super) fn compile(
+        scenario: &Scenario,
+        formulation: Formulation,
+        substeps: NonZeroUsize,
+    ) -> Result<Self, OcpError> {
         let FormulatedManeuver { problem, coordinates, initial } =
             FormulatedManeuver::in_form(scenario, formulation);
-        Ok(Self { functions: StageFunctions::compile(&problem)?, coordinates, initial })
+        let plain = StageFunctions::compile(&problem)?;
+        let several = match substeps.get() {
+            1 => None,
+            _ => Some(plain.with_substeps(substeps)?),
+        };
+        Ok(Self {
+            functions: several.unwrap_or_else(|| plain.clone()),
+            plain,
+            finer: None,
+            asked_step_s: scenario.horizon().step_s(),
+            coordinates,
+            initial,
+        })
     }
 
     pub(super) fn initial_guesses<'a>(
@@ -30,7 +59,13 @@ impl Model {
         scenario: &'a Scenario,
         steps: usize,
     ) -> InitialGuesses<'a> {
-        InitialGuesses { scenario, coordinates: &self.coordinates, initial: &self.initial, steps }
+        InitialGuesses {
+            scenario,
+            coordinates: &self.coordinates,
+            initial: &self.initial,
+            steps,
+            substeps: self.functions.substeps().get(),
+        }
     }
 
     pub(super) fn solve(
@@ -40,9 +75,41 @@ impl Model {
         settings: &Settings,
         mut on_iteration: impl FnMut(IterationRecord) -> Control,
     ) -> Result<OcpSolution, OcpError> {
-        let mut program = MultipleShooting::new(&self.functions, grid, &self.initial)?;
-        program
-            .solve(&OcpStart::Guess(guess), settings, |iteration| on_iteration(record(iteration)))
+        // Steps as long as those of the asked grid need as many Runge–Kutta steps.
+        let is_as_coarse = grid.step_s() < self.asked_step_s * (1.0 + SAME_STEP);
+        let functions = if is_as_coarse { self.asked_functions() } else { &self.functions };
+        let mut program = MultipleShooting::new(functions, grid, &self.initial)?;
+        let mut stall = StallCheck::default();
+        program.solve(&OcpStart::Guess(guess), settings, |iteration| {
+            stall.watched(record(iteration), &mut on_iteration)
+        })
+    }
+
+    /// What the asked grid is solved with.
+    pub(super) fn asked_functions(&self) -> &StageFunctions {
+        self.finer.as_ref().unwrap_or(&self.plain)
+    }
+
+    /// From here on, each step of the asked grid is integrated in so many Runge–Kutta steps.
+    pub(super) fn take_substeps(&mut self, substeps: NonZeroUsize) -> Result<(), OcpError> {
+        self.finer = Some(self.plain.with_substeps(substeps)?);
+        Ok(())
+    }
+
+    /// By how much the attitude at the end of a solution on the asked grid may be off for its steps, rad.
+    pub(super) fn integration_error_rad(
+        &self,
+        grid: Grid,
+        solution: &OcpSolution,
+    ) -> Result<f64, OcpError> {
+        let functions = self.asked_functions();
+        let mut program = MultipleShooting::new(functions, grid, &self.initial)?;
+        let twice = functions.substeps().saturating_mul(NonZeroUsize::MIN.saturating_add(1));
+        let errors = program.step_errors(&solution.point, twice);
+        let attitude = self.coordinates.attitude();
+        let of_step = |row: &[f64]| row[attitude.clone()].iter().map(|e| e * e).sum::<f64>().sqrt();
+        // An error of a unit quaternion is half an angle.
+        Ok(errors.rows().map(|row| 2.0 * of_step(row)).sum())
     }
 
     pub(super) fn refine(
@@ -53,9 +120,13 @@ impl Model {
         settings: &Settings,
         mut on_iteration: impl FnMut(IterationRecord) -> Control,
     ) -> Result<OcpSolution, OcpError> {
-        let on_iteration = |iteration: &righting_ocp::Iteration| on_iteration(record(iteration));
+        let mut stall = StallCheck::default();
+        let on_iteration = |iteration: &righting_ocp::Iteration| {
+            stall.watched(record(iteration), &mut on_iteration)
+        };
         let Self { functions, initial, .. } = self;
-        MeshRefinement { functions, initial, grid, between, settings }
+        let last_functions = self.asked_functions();
+        MeshRefinement { functions, last_functions, initial, grid, between, settings }
             .refine(coarse.point, on_iteration)
     }
 
@@ -68,16 +139,22 @@ impl Model {
         if solution.reduced_hessian == Some(ReducedHessian::PositiveDefinite) {
             return Ok(Curvature::Positive);
         }
-        MultipleShooting::new(&self.functions, grid, &self.initial)?.curvature(&solution.point)
+        MultipleShooting::new(self.asked_functions(), grid, &self.initial)?
+            .curvature(&solution.point)
     }
 
-    /// The motion of a solution in another model's form, as a guess for this one.
-    pub(super) fn guess_from(&self, other: &Model, solution: &OcpSolution) -> InitialGuess {
+    /// A motion in another model's form, as a guess for this one.
+    pub(super) fn guess_along(
+        &self,
+        other: &Model,
+        motion: &Samples,
+        controls: &Samples,
+    ) -> InitialGuess {
         let mut states = Samples::new(self.coordinates.dimension());
-        for row in solution.states.rows() {
+        for row in motion.rows() {
             let state = other.coordinates.free_floating_state(row);
             states.push(&self.coordinates.of_free_floating_state(&state));
         }
-        InitialGuess { states, controls: solution.controls.clone() }
+        InitialGuess { states, controls: controls.clone() }
     }
 }

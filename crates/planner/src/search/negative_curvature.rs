@@ -3,7 +3,7 @@
 use righting_ocp::{Curvature, InitialGuess, OcpError, OcpSolution, Samples, Settings};
 
 use super::batch::Batch;
-use super::{Search, grids, portfolio, settings};
+use super::{Search, portfolio, settings};
 use crate::initial_guess::InitialGuesses;
 
 /// Guesses tried at a time.
@@ -67,15 +67,16 @@ impl Search<'_> {
         direction: Option<&Samples>,
         first: usize,
     ) -> Result<Vec<OcpSolution>, OcpError> {
-        let grid = grids::coarse(self.scenario, &self.grid)?;
+        let grid = self.ranking.grid(&self.grid)?;
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
-        let guesses = model.initial_guesses(self.scenario, grid.steps());
+        let guesses = model.initial_guesses(&self.ranked, grid.steps());
+        let asked_steps = self.ranking.asked_steps;
         let cold = settings::coarse(self.scenario);
-        let others = portfolio::guesses_beside_saddle(self.scenario, &guesses, ROUNDS * GUESSES);
+        let others = portfolio::guesses_beside_saddle(&self.ranked, &guesses, ROUNDS * GUESSES);
         let starts: Vec<(InitialGuess, Settings)> = direction
             .into_iter()
             .flat_map(|direction| {
-                [1.0, -1.0].map(|sign| displaced(&guesses, saddle, direction, sign))
+                [1.0, -1.0].map(|sign| displaced(&guesses, saddle, direction, asked_steps, sign))
             })
             .chain(others.into_iter().skip(first).take(GUESSES))
             .map(|start| (start, cold.clone()))
@@ -92,19 +93,20 @@ impl Search<'_> {
     }
 }
 
-/// The motion of a plan with its controls changed along `direction`, one way or the other.
+/// The first steps of a plan with its controls changed along `direction`, one way or the other.
 fn displaced(
     guesses: &InitialGuesses<'_>,
     plan: &OcpSolution,
     direction: &Samples,
+    asked_steps: usize,
     sign: f64,
 ) -> InitialGuess {
     let mut guess = guesses.constant();
     let steps = guess.controls.len();
-    let change = averaged(direction, steps);
+    let change = averaged(direction, asked_steps, steps);
     let step_s = guesses.scenario.horizon().duration_s / steps as f64;
     let share = sign * FIRST_STEP_RAD / largest_turn(&change, step_s);
-    guess.controls = averaged(&plan.controls, steps);
+    guess.controls = averaged(&plan.controls, asked_steps, steps);
     for step in 0..steps {
         let controls = guess.controls.row_mut(step);
         controls.iter_mut().zip(change.row(step)).for_each(|(u, change)| *u += share * change);
@@ -112,11 +114,11 @@ fn displaced(
     guesses.simulated(guess)
 }
 
-/// Controls on a coarser grid: means over its steps.
-fn averaged(controls: &Samples, steps: usize) -> Samples {
+/// The first `fine_steps` controls on a coarser grid: means over its steps.
+fn averaged(controls: &Samples, fine_steps: usize, steps: usize) -> Samples {
     let mut means = Samples::new(controls.width());
     for step in 0..steps {
-        let fine = step * controls.len() / steps..(step + 1) * controls.len() / steps;
+        let fine = step * fine_steps / steps..(step + 1) * fine_steps / steps;
         let share = 1.0 / fine.len() as f64;
         let mut mean = vec![0.0; controls.width()];
         for k in fine {

@@ -6,49 +6,92 @@ use righting_scenario::scenario::{MAX_STARTS, Maneuver, Scenario};
 
 use crate::initial_guess::InitialGuesses;
 
-/// Low-discrepancy guesses that the automatic guess ranks beside the constant one.
-const AUTO_GUESSES: usize = 4;
-/// Of how many of them a detumble's automatic guess takes those after which the base turns slowest.
-const SCREENED_GUESSES: usize = 32;
-/// From here on a slew has so many optima that more guesses pay: closed loops of the joints.
-const LARGE_SLEW_RAD: f64 = 0.5;
-/// Where no loop turns the base about the axis, so many more low-discrepancy guesses, simulated.
-const LARGE_SLEW_GUESSES: usize = 5;
+/// Low-discrepancy guesses that the automatic guess of a detumble ranks beside the constant one, those after
+/// which the base turns slowest: so many in each batch …
+const DETUMBLE_BATCHES: [usize; 2] = [4, 8];
+/// … of so many.
+const SCREENED_GUESSES: usize = 48;
+/// A batch of a slew: numbers of low-discrepancy guesses, with the attitude turning evenly to the target and
+/// simulated, and closed loops of the joints as `(turns − 1) · 4 + phase`.
+struct SlewBatch {
+    turning: &'static [usize],
+    simulated: &'static [usize],
+    loops: &'static [usize],
+}
+/// What the automatic guess of a slew ranks beside the constant one. Chosen greedily on 65 slews of the
+/// shipped arms and seven public ones; docs/decisions.md has what each is worth.
+const SLEW_BATCHES: [SlewBatch; 2] = [
+    SlewBatch { turning: &[0], simulated: &[], loops: &[4, 6] },
+    SlewBatch { turning: &[1, 4, 7], simulated: &[1], loops: &[0, 2, 7, 8] },
+];
+/// No batch follows where so many starts of the first end in the best optimum found.
+const AGREEING: usize = 5;
+/// Two optima are the same when their objectives differ by no more than this share.
+const SAME_OPTIMUM: f64 = 5e-3;
 
 /// Whether guesses are ranked at all.
 pub(super) fn is_ranked(scenario: &Scenario) -> bool {
-    count(scenario) > 0
+    !matches!(scenario.solver().guess, file::Guess::Named(NamedGuess::Constant))
 }
 
-/// The guesses to rank; none if nothing is ranked.
+/// The guesses to rank, batch by batch; none if nothing is ranked.
 pub(super) fn ranked_guesses(
     scenario: &Scenario,
     guesses: &InitialGuesses<'_>,
-) -> Vec<InitialGuess> {
-    let count = count(scenario);
-    if count == 0 {
-        return Vec::new();
+) -> Vec<Vec<InitialGuess>> {
+    let constant = guesses.constant();
+    match (scenario.solver().guess, scenario.maneuver()) {
+        (file::Guess::Named(NamedGuess::Constant), _) => Vec::new(),
+        (file::Guess::Starts(LowDiscrepancyStarts { starts, .. }), _) => {
+            let spread = guesses.low_discrepancy(first(scenario)).take(starts as usize);
+            vec![std::iter::once(constant).chain(spread).collect()]
+        }
+        (file::Guess::Named(NamedGuess::Auto), Maneuver::Detumble) => {
+            let count = DETUMBLE_BATCHES.iter().sum();
+            let mut slowest = guesses.least_final_rate(SCREENED_GUESSES, count).into_iter();
+            let mut batches: Vec<Vec<InitialGuess>> = DETUMBLE_BATCHES
+                .iter()
+                .map(|&count| slowest.by_ref().take(count).collect())
+                .collect();
+            batches[0].insert(0, constant);
+            batches
+        }
+        (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(slew)) => {
+            let loops = guesses.joint_loops(&slew.target);
+            let spread: Vec<InitialGuess> = guesses.low_discrepancy(0).take(8).collect();
+            let mut batches: Vec<Vec<InitialGuess>> = SLEW_BATCHES
+                .iter()
+                .map(|batch| {
+                    let turning = batch
+                        .turning
+                        .iter()
+                        .map(|&number| guesses.turning_to(spread[number].clone(), &slew.target));
+                    let simulated = batch
+                        .simulated
+                        .iter()
+                        .map(|&number| guesses.simulated(spread[number].clone()));
+                    let loops = batch.loops.iter().filter_map(|&number| loops.get(number).cloned());
+                    turning.chain(simulated).chain(loops).collect()
+                })
+                .collect();
+            batches[0].insert(0, guesses.turning_to(constant.clone(), &slew.target));
+            batches[0].insert(0, constant);
+            batches
+        }
     }
-    let mut ranked = vec![guesses.constant()];
+}
+
+/// Whether the objectives found after so many batches say that no more of them are needed.
+pub(super) fn agree(batches: usize, objectives: &[f64]) -> bool {
+    let least = objectives.iter().copied().fold(f64::INFINITY, f64::min);
+    let same = objectives.iter().filter(|&&found| found <= least * (1.0 + SAME_OPTIMUM)).count();
+    batches == 1 && same >= AGREEING
+}
+
+/// Whether the best optimum found is a start for others.
+pub(super) fn hops(scenario: &Scenario) -> bool {
     let is_auto = scenario.solver().guess == file::Guess::Named(NamedGuess::Auto);
-    match scenario.maneuver() {
-        Maneuver::Detumble if is_auto => {
-            ranked.extend(guesses.least_final_rate(SCREENED_GUESSES, count));
-        }
-        Maneuver::Slew(slew) if is_auto => {
-            ranked.extend(guesses.low_discrepancy(0).take(count));
-            if slew.target.angle_to(&scenario.initial().attitude) > LARGE_SLEW_RAD {
-                let loops = guesses.joint_loops(&slew.target);
-                if loops.is_empty() {
-                    let more = guesses.low_discrepancy(count as u64).take(LARGE_SLEW_GUESSES);
-                    ranked.extend(more.map(|guess| guesses.simulated(guess)));
-                }
-                ranked.extend(loops);
-            }
-        }
-        _ => ranked.extend(guesses.low_discrepancy(first(scenario)).take(count)),
-    }
-    ranked
+    is_auto && matches!(scenario.maneuver(), Maneuver::Slew(_))
 }
 
 /// What leads away from a stationary point, best first: `count` guesses in all.
@@ -63,15 +106,6 @@ pub(super) fn guesses_beside_saddle(
             let all = guesses.low_discrepancy(0).take(count);
             all.map(|guess| guesses.simulated(guess)).collect()
         }
-    }
-}
-
-/// How many guesses are ranked beside the constant one; zero if nothing is ranked.
-fn count(scenario: &Scenario) -> usize {
-    match scenario.solver().guess {
-        file::Guess::Named(NamedGuess::Constant) => 0,
-        file::Guess::Named(NamedGuess::Auto) => AUTO_GUESSES,
-        file::Guess::Starts(LowDiscrepancyStarts { starts, .. }) => starts as usize,
     }
 }
 

@@ -5,7 +5,7 @@ use righting_scenario::file::{self, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
 /// Tolerance of ranking: tight enough for the barrier not to change the order of small objectives …
-const COARSE_TOLERANCE: f64 = 1e-7;
+const COARSE_TOLERANCE: f64 = 1e-5;
 /// … and of a detumble, what not to act would cost times this, …
 const DETUMBLE_TOLERANCE: f64 = 1e-6;
 /// … up to this.
@@ -29,6 +29,10 @@ pub(super) fn coarse(scenario: &Scenario) -> Settings {
     settings.ipopt.max_soc = 0;
     settings.ipopt.accept_after_max_steps = COARSE_HALVINGS;
     settings.retry_at_iteration_limit = false;
+    // One start of many is not worth a general factorisation.
+    if settings.linear_solver == LinearSolverChoice::Auto {
+        settings.linear_solver = LinearSolverChoice::Stage;
+    }
     settings
 }
 

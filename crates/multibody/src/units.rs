@@ -1,0 +1,50 @@
+//! Units of measurement, and the same system measured in others.
+
+use crate::error::ModelError;
+use crate::parts::{Base, Link, Mount, Payload};
+use crate::system::System;
+
+/// Units of length, mass and time, in those of the SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// The unit of length, m.
+    pub length_m: f64,
+    /// The unit of mass, kg.
+    pub mass_kg: f64,
+    /// The unit of time, s.
+    pub time_s: f64,
+}
+
+impl Units {
+    /// Metre, kilogram, second.
+    pub const SI: Self = Self { length_m: 1.0, mass_kg: 1.0, time_s: 1.0 };
+}
+
+impl System {
+    /// The same system with its masses and lengths measured in `units`.
+    ///
+    /// # Errors
+    /// [`ModelError::Overflow`] when a number in these units is beyond any number.
+    pub fn in_units(&self, units: &Units) -> Result<Self, ModelError> {
+        let Units { length_m, mass_kg, .. } = *units;
+        let inertia_kg_m2 = mass_kg * length_m.powi(2);
+        let base = Base {
+            mass_kg: self.base().mass_kg / mass_kg,
+            inertia_kg_m2: self.base().inertia_kg_m2 / inertia_kg_m2,
+        };
+        let mount = Mount { position_m: self.mount().position_m / length_m, ..*self.mount() };
+        let links = self.links().iter().map(|link| Link {
+            mass_kg: link.mass_kg / mass_kg,
+            a_m: link.a_m / length_m,
+            d_m: link.d_m / length_m,
+            center_of_mass_m: link.center_of_mass_m.map(|center| center / length_m),
+            inertia_kg_m2: link.inertia_kg_m2.map(|inertia| inertia / inertia_kg_m2),
+            ..link.clone()
+        });
+        let payload = self.payload().map(|payload| Payload {
+            mass_kg: payload.mass_kg / mass_kg,
+            inertia_kg_m2: payload.inertia_kg_m2.map(|inertia| inertia / inertia_kg_m2),
+        });
+        Self::assembled(base, mount, self.convention(), links.collect(), payload)
+    }
+}

@@ -1,0 +1,196 @@
+//! The measures of a maneuver: it is planned in units of its own.
+//!
+//! Lengths are measured by the system's size, masses by its mass, and time so that every maneuver, or its
+//! beginning where that is all that counts, takes [`DURATION`]. The objective is measured by what a maneuver of that size costs: the optimizer's
+//! tolerances, which are absolute, are then relative to the plan's cost whatever the units of the file,
+//! the size of the arm and the length of the maneuver.
+//!
+//! The constant guess is the paper's solve, and keeps the units of the file.
+
+use std::f64::consts::PI;
+
+use righting_multibody::{ModelError, State, Units};
+use righting_results::IterationRecord;
+use righting_results::trajectory::{ControlInterval, Node, Trajectory};
+use righting_scenario::file::{Formulation, Guess, NamedGuess};
+use righting_scenario::scenario::{Maneuver, Scenario, Weights};
+
+use crate::formulation::Coordinates;
+use crate::initial_guess::InitialGuesses;
+
+/// Duration of every maneuver in its own unit of time: that of the paper's, so that its unit is a second.
+const DURATION: f64 = 30.0;
+/// A base that turns farther than this by itself during its maneuver spins for long, rad.
+const LONG_SPIN_RAD: f64 = 84.0;
+/// The beginning that decides such a maneuver, in times that the slowest joint takes for half a turn.
+const HALF_TURNS: f64 = 2.5;
+/// Steps on which the effort of a slew is estimated.
+const ESTIMATE_STEPS: usize = 24;
+/// The smallest slew whose effort is estimated, rad: what the end may miss anyway.
+const SMALLEST_SLEW_RAD: f64 = 2e-3;
+/// The objective of drifting in a detumble: that of the paper's, which start at 20 deg/s with a weight of
+/// 100.
+const DRIFT_COST: f64 = 12.184_696_791_468_343;
+/// Weights of a hard end, where the effort of the maneuver is about one: attitude, and rates times the
+/// unit of time.
+const HARD_ATTITUDE: f64 = 1e6;
+const HARD_RATE: f64 = 1e5;
+/// Of a detumble, the weight of the joint rates in that of the base's rate, and the effort's in both.
+const HARD_DETUMBLE_JOINTS: f64 = 1e3;
+const HARD_DETUMBLE_EFFORT: f64 = 0.01;
+
+/// What a maneuver is measured by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scaling {
+    pub(crate) units: Units,
+    /// So much of the objective counts as one.
+    pub(crate) objective: f64,
+}
+
+impl Scaling {
+    /// The scenario measured by itself, and what it is measured by.
+    ///
+    /// # Errors
+    /// [`ModelError::Overflow`] when masses or lengths are beyond all measure.
+    pub(crate) fn applied(scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
+        if is_paper(scenario) {
+            return Ok((scenario.clone(), Self { units: Units::SI, objective: 1.0 }));
+        }
+        let units = Units {
+            length_m: scenario.system().size_m(),
+            mass_kg: scenario.system().model.total_mass(),
+            time_s: beginning_s(scenario) / DURATION,
+        };
+        let measured = scenario.in_units(&units, 1.0)?;
+        let weights = measured.weights();
+        let objective = match measured.maneuver() {
+            Maneuver::Slew(_) => weights.control * effort(&measured),
+            Maneuver::Detumble => weights.angular_rate * drift_rate(&measured).powi(2) / DRIFT_COST,
+        };
+        // A weight of zero says nothing of a measure.
+        let objective = if objective > 0.0 { objective } else { 1.0 };
+        let measured = scenario.in_units(&units, objective)?;
+        let weights = match scenario.is_end_hard() {
+            true => hard(&measured),
+            false => measured.weights(),
+        };
+        Ok((measured.with_weights(weights), Self { units, objective }))
+    }
+
+    /// A state in SI units.
+    pub(crate) fn state(&self, measured: State<f64>) -> State<f64> {
+        let Units { length_m, time_s, .. } = self.units;
+        State {
+            position: measured.position * length_m,
+            velocity: measured.velocity * (length_m / time_s),
+            angular_rate: measured.angular_rate / time_s,
+            joint_rates: measured.joint_rates.iter().map(|rate| rate / time_s).collect(),
+            ..measured
+        }
+    }
+
+    /// Joint accelerations in SI units.
+    pub(crate) fn accelerations(&self, measured: &[f64]) -> Vec<f64> {
+        measured.iter().map(|acceleration| acceleration / self.units.time_s.powi(2)).collect()
+    }
+
+    /// An iteration's record with the objective in the file's weights.
+    pub(crate) fn record(&self, measured: &IterationRecord) -> IterationRecord {
+        let objective = measured.objective * self.objective;
+        IterationRecord { objective, ..measured.clone() }
+    }
+
+    /// A motion of the same system in these units; its torques and powers stay as they are.
+    pub(crate) fn trajectory(&self, motion: &Trajectory) -> Trajectory {
+        let Units { length_m, time_s, .. } = self.units;
+        let nodes = motion.nodes().iter().map(|node| Node {
+            time_s: node.time_s / time_s,
+            position_m: node.position_m.map(|position| position / length_m),
+            velocity_m_s: node.velocity_m_s.map(|velocity| velocity * (time_s / length_m)),
+            angular_rate_rad_s: node.angular_rate_rad_s.map(|rate| rate * time_s),
+            joint_rates_rad_s: node.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            ..node.clone()
+        });
+        let intervals = motion.intervals().iter().map(|interval| {
+            let accelerations = interval.joint_accelerations_rad_s2.iter();
+            ControlInterval {
+                joint_accelerations_rad_s2: accelerations.map(|u| u * time_s.powi(2)).collect(),
+                ..interval.clone()
+            }
+        });
+        Trajectory::new(nodes.collect(), intervals.collect())
+            .expect("as many of each as there were")
+    }
+}
+
+/// How much of a horizon decides the maneuver: all of it, but of a long detumble of a fast spin only as long
+/// as the slowest joint takes a few times for half a turn. Nothing is lost when the arm holds still in the
+/// rest, which no coarse grid could follow.
+pub(crate) fn beginning_s(scenario: &Scenario) -> f64 {
+    let duration_s = scenario.horizon().duration_s;
+    let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
+    match spin_rad > LONG_SPIN_RAD {
+        true => duration_s.min(HALF_TURNS * half_turn_s(scenario)),
+        false => duration_s,
+    }
+}
+
+/// How long the slowest joint takes for half a turn, or for its range if that is less, from rest to rest.
+fn half_turn_s(scenario: &Scenario) -> f64 {
+    let limits = scenario.system().joint_limits.iter();
+    let times = limits.map(|limits| {
+        let (low, high) = limits.angle_range_rad();
+        let (rate, acceleration) = (limits.rate_max_rad_s, limits.acceleration_max_rad_s2);
+        (high - low).min(PI) / rate + rate / acceleration
+    });
+    times.fold(0.0, f64::max)
+}
+
+/// Whether a scenario asks for the paper's solve, which is made as it is.
+pub(crate) fn is_paper(scenario: &Scenario) -> bool {
+    scenario.solver().guess == Guess::Named(NamedGuess::Constant)
+}
+
+/// Weights with which the end is met to far below its tolerances, at a cost of effort near one.
+fn hard(measured: &Scenario) -> Weights {
+    let given = measured.weights();
+    match measured.maneuver() {
+        Maneuver::Slew(_) => Weights {
+            attitude: HARD_ATTITUDE,
+            angular_rate: HARD_RATE,
+            joint_rate: HARD_RATE,
+            ..given
+        },
+        Maneuver::Detumble => {
+            let angular_rate = DRIFT_COST / drift_rate(measured).powi(2);
+            Weights {
+                control: HARD_DETUMBLE_EFFORT,
+                angular_rate,
+                joint_rate: HARD_DETUMBLE_JOINTS * angular_rate,
+                ..given
+            }
+        }
+    }
+}
+
+/// The base's rate when the arm has stopped in its first posture.
+fn drift_rate(measured: &Scenario) -> f64 {
+    let initial = measured.initial();
+    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
+    let (angles, stopped) = (&initial.joint_angles_rad, vec![0.0; initial.joint_rates_rad_s.len()]);
+    measured.system().model.reduced_angular_rate(angles, &stopped, &momentum).norm()
+}
+
+/// About what ∫‖q̈‖² dt over the reference interval a slew takes at least, from motions that make it.
+fn effort(measured: &Scenario) -> f64 {
+    let coordinates = Coordinates::new(measured, Formulation::Reduced);
+    let initial = coordinates.initial(measured.initial());
+    let guesses = InitialGuesses {
+        scenario: measured,
+        coordinates: &coordinates,
+        initial: &initial,
+        steps: ESTIMATE_STEPS,
+        substeps: 1,
+    };
+    guesses.least_effort(SMALLEST_SLEW_RAD)
+}

@@ -1,0 +1,98 @@
+//! The same scenario measured in other units.
+
+use righting_multibody::{ModelError, Units};
+
+use crate::collision::CollisionModel;
+use crate::initial::Initial;
+use crate::scenario::{Horizon, Scenario, Weights};
+use crate::system_description::{JointLimits, SystemDescription};
+
+impl Scenario {
+    /// The same maneuver with every number measured in `units` instead of m, kg and s. Its objective has
+    /// the same values, up to a factor on all of them if `objective_unit` is not one: that much of the
+    /// objective counts as one.
+    ///
+    /// [`resolved`](Self::resolved) stays the file as it was.
+    ///
+    /// # Errors
+    /// [`ModelError::Overflow`] when masses or lengths in these units are beyond any number.
+    pub fn in_units(&self, units: &Units, objective_unit: f64) -> Result<Self, ModelError> {
+        Ok(Self {
+            system: self.system.in_units(units)?,
+            initial: self.initial.in_units(units),
+            horizon: Horizon { duration_s: self.horizon.duration_s / units.time_s, ..self.horizon },
+            weights: self.weights.in_units(units, objective_unit),
+            collision: self.collision.in_units(units),
+            ..self.clone()
+        })
+    }
+}
+
+impl SystemDescription {
+    fn in_units(&self, units: &Units) -> Result<Self, ModelError> {
+        let limits = self.joint_limits.iter().map(|limits| JointLimits {
+            rate_max_rad_s: limits.rate_max_rad_s * units.time_s,
+            acceleration_max_rad_s2: limits.acceleration_max_rad_s2 * units.time_s.powi(2),
+            ..*limits
+        });
+        Ok(Self {
+            model: self.model.in_units(units)?,
+            keep_out_radius_m: self.keep_out_radius_m / units.length_m,
+            joint_limits: limits.collect(),
+            ..self.clone()
+        })
+    }
+
+    /// The length that the system is measured by: that of the arm stretched out, mount and all, m. Never
+    /// zero.
+    pub fn size_m(&self) -> f64 {
+        let links: f64 = self.model.links().iter().map(righting_multibody::Link::length_m).sum();
+        let size_m = self.model.mount().position_m.norm() + links;
+        match size_m > 0.0 {
+            true => size_m,
+            false => 1.0,
+        }
+    }
+}
+
+impl Initial {
+    fn in_units(&self, units: &Units) -> Self {
+        let Units { length_m, mass_kg, time_s } = *units;
+        Self {
+            velocity_m_s: self.velocity_m_s * (time_s / length_m),
+            angular_rate_rad_s: self.angular_rate_rad_s * time_s,
+            joint_rates_rad_s: self.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            angular_momentum_n_m_s: self.angular_momentum_n_m_s
+                * (time_s / (mass_kg * length_m.powi(2))),
+            ..self.clone()
+        }
+    }
+}
+
+impl Weights {
+    /// Each weight times the square of its quantity keeps its value. The control's multiplies an integral
+    /// over time; the interval that this is measured by is the same number in any unit.
+    fn in_units(&self, units: &Units, objective_unit: f64) -> Self {
+        let Units { length_m, time_s, .. } = *units;
+        let of = |weight: f64, unit: f64| weight * unit.powi(2) / objective_unit;
+        Self {
+            control: of(self.control, time_s.powi(-2)) * time_s,
+            position: of(self.position, length_m),
+            attitude: of(self.attitude, 1.0),
+            velocity: of(self.velocity, length_m / time_s),
+            angular_rate: of(self.angular_rate, 1.0 / time_s),
+            joint_angle: of(self.joint_angle, 1.0),
+            joint_rate: of(self.joint_rate, 1.0 / time_s),
+        }
+    }
+}
+
+impl CollisionModel {
+    fn in_units(&self, units: &Units) -> Self {
+        Self {
+            clearance_m: self.clearance_m / units.length_m,
+            body_distance_m: self.body_distance_m / units.length_m,
+            ..self.clone()
+        }
+    }
+}
