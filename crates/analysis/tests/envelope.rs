@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 use righting_analysis::envelope::sampled_maxima;
 use righting_analysis::envelopes;
-use righting_scenario::system_description::read_system_or_scenario;
+use righting_scenario::scenario::read_system_or_scenario;
 use righting_scenario::{SystemDescription, WheelArray};
 
 fn system(name: &str) -> SystemDescription {

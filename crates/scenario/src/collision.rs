@@ -1,7 +1,5 @@
 //! Which links keep how far from the base and from each other.
 
-use std::f64::consts::PI;
-
 use nalgebra::Vector3;
 use righting_multibody::Kinematics;
 
@@ -168,32 +166,6 @@ impl CollisionModel {
             }
         }
         Ok(())
-    }
-}
-
-impl SystemDescription {
-    /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
-    /// limits ranges over one turn.
-    pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {
-        let ranges = self.joint_limits.iter().zip(unit);
-        ranges
-            .map(|(limits, unit)| {
-                let (low, high) = limits.angle_range_rad();
-                low + (high - low) * unit
-            })
-            .collect()
-    }
-}
-
-impl crate::JointLimits {
-    /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.
-    pub fn angle_range_rad(&self) -> (f64, f64) {
-        match (self.angle_min_rad.is_finite(), self.angle_max_rad.is_finite()) {
-            (true, true) => (self.angle_min_rad, self.angle_max_rad),
-            (true, false) => (self.angle_min_rad, self.angle_min_rad + 2.0 * PI),
-            (false, true) => (self.angle_max_rad - 2.0 * PI, self.angle_max_rad),
-            (false, false) => (-PI, PI),
-        }
     }
 }
 

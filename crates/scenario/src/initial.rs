@@ -5,8 +5,9 @@ use righting_multibody::{Quaternion, State};
 
 use crate::error::Error;
 use crate::file;
+use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Location, Number};
-use crate::system_description::{JointLimits, SystemDescription, unit_quaternion};
+use crate::system_description::{SystemDescription, unit_quaternion};
 
 const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3600.0, 3600.0);
 const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);

@@ -271,6 +271,19 @@ impl file::Scenario {
     }
 }
 
+/// The system of a system file or of a scenario file.
+///
+/// # Errors
+/// As reading either.
+pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> {
+    let document = Document::read(file, FileKind::SystemOrScenario)?;
+    if document.has_key("system") {
+        Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
+    } else {
+        SystemDescription::from_file(&document.decode()?, &Location::root(file))
+    }
+}
+
 /// Puts the system inline and checks it; complaints about a system file name that file. Returns the
 /// place of its links too.
 fn resolve_system(

@@ -8,8 +8,8 @@ use righting_multibody::{ModelError, Part, Quaternion, System};
 
 use crate::error::Error;
 use crate::file;
+use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
-use crate::scenario::Scenario;
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
@@ -21,9 +21,6 @@ const SIZE_M: Bounds = Bounds::Above(0.0, 1e4);
 const RADIUS_M: Bounds = Bounds::Between(0.0, 1e4);
 const INERTIA_KG_M2: Bounds = Bounds::Between(-1e15, 1e15);
 const DH_ANGLE_DEG: Bounds = Bounds::Between(-360.0, 360.0);
-const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
-const RATE_DEG_S: Bounds = Bounds::Above(0.0, 36_000.0);
-const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 360_000.0);
 
 /// A free-floating base with an arm: masses and geometry, joint limits and keep-out sphere.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,19 +37,6 @@ pub struct SystemDescription {
     pub body_exempt: Vec<bool>,
 }
 
-/// What a joint can do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointLimits {
-    /// Smallest angle, rad; −∞ if there is none.
-    pub angle_min_rad: f64,
-    /// Largest angle, rad; +∞ if there is none.
-    pub angle_max_rad: f64,
-    /// Largest rate in magnitude, rad/s.
-    pub rate_max_rad_s: f64,
-    /// Largest acceleration in magnitude, rad/s².
-    pub acceleration_max_rad_s2: f64,
-}
-
 impl SystemDescription {
     /// Reads and checks a system file.
     ///
@@ -65,6 +49,18 @@ impl SystemDescription {
     /// Number of joints j, which is also the number of links.
     pub fn joint_count(&self) -> usize {
         self.joint_limits.len()
+    }
+
+    /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
+    /// limits ranges over one turn.
+    pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {
+        let ranges = self.joint_limits.iter().zip(unit);
+        ranges
+            .map(|(limits, unit)| {
+                let (low, high) = limits.angle_range_rad();
+                low + (high - low) * unit
+            })
+            .collect()
     }
 
     /// Checks a system that was read from `place`.
@@ -88,7 +84,7 @@ impl SystemDescription {
         for (index, row) in system.links.iter().enumerate() {
             let place = links_place.index(index);
             links.push(link(row, &place)?);
-            joint_limits.push(limits(row, &place)?);
+            joint_limits.push(JointLimits::from_file(row, &place)?);
         }
         let payload = match &system.payload {
             Some(payload) => Some(self::payload(payload, &place.key("payload"))?),
@@ -103,19 +99,6 @@ impl SystemDescription {
             joint_limits,
             body_exempt: system.links.iter().map(|link| link.body_exempt).collect(),
         })
-    }
-}
-
-/// The system of a system file or of a scenario file.
-///
-/// # Errors
-/// As reading either.
-pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> {
-    let document = Document::read(file, FileKind::SystemOrScenario)?;
-    if document.has_key("system") {
-        Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
-    } else {
-        SystemDescription::from_file(&document.decode()?, &Location::root(file))
     }
 }
 
@@ -198,30 +181,6 @@ fn link(row: &file::Link, place: &Location) -> Result<multibody::Link, Error> {
             .inertia_kg_m2
             .map(|inertia| matrix(&inertia, &place.key("inertia_kg_m2")))
             .transpose()?,
-    })
-}
-
-fn limits(row: &file::Link, place: &Location) -> Result<JointLimits, Error> {
-    let angle = |name: &str, value: Option<f64>, none: f64| match value {
-        Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
-        None => Ok(none),
-    };
-    let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
-    let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
-    if min_deg >= max_deg {
-        let allowed = format!("less than angle_max_deg, {}", Number(max_deg));
-        return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
-    }
-    let rate_place = place.key("rate_max_deg_s");
-    let acceleration_place = place.key("acceleration_max_deg_s2");
-    let rate_max_deg_s = rate_place.within(row.rate_max_deg_s, RATE_DEG_S)?;
-    let acceleration_max_deg_s2 =
-        acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
-    Ok(JointLimits {
-        angle_min_rad: min_deg.to_radians(),
-        angle_max_rad: max_deg.to_radians(),
-        rate_max_rad_s: rate_max_deg_s.to_radians(),
-        acceleration_max_rad_s2: acceleration_max_deg_s2.to_radians(),
     })
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Vector3};
 use num_dual::{Dual64, HyperDual64};
 use righting_multibody::System;
-use righting_scenario::system_description::JointLimits;
+use righting_scenario::JointLimits;
 
 /// What an envelope is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,61 @@
+//! What a joint can do.
+
+use std::f64::consts::PI;
+
+use crate::error::Error;
+use crate::file;
+use crate::json::{Bounds, Location, Number};
+
+const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
+const RATE_DEG_S: Bounds = Bounds::Above(0.0, 36_000.0);
+const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 360_000.0);
+
+/// What a joint can do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLimits {
+    /// Smallest angle, rad; −∞ if there is none.
+    pub angle_min_rad: f64,
+    /// Largest angle, rad; +∞ if there is none.
+    pub angle_max_rad: f64,
+    /// Largest rate in magnitude, rad/s.
+    pub rate_max_rad_s: f64,
+    /// Largest acceleration in magnitude, rad/s².
+    pub acceleration_max_rad_s2: f64,
+}
+
+impl JointLimits {
+    /// Checks the limits of a row that was read from `place`.
+    pub(crate) fn from_file(row: &file::Link, place: &Location) -> Result<Self, Error> {
+        let angle = |name: &str, value: Option<f64>, none: f64| match value {
+            Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
+            None => Ok(none),
+        };
+        let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
+        let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
+        if min_deg >= max_deg {
+            let allowed = format!("less than angle_max_deg, {}", Number(max_deg));
+            return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
+        }
+        let rate_place = place.key("rate_max_deg_s");
+        let acceleration_place = place.key("acceleration_max_deg_s2");
+        let rate_max_deg_s = rate_place.within(row.rate_max_deg_s, RATE_DEG_S)?;
+        let acceleration_max_deg_s2 =
+            acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        Ok(Self {
+            angle_min_rad: min_deg.to_radians(),
+            angle_max_rad: max_deg.to_radians(),
+            rate_max_rad_s: rate_max_deg_s.to_radians(),
+            acceleration_max_rad_s2: acceleration_max_deg_s2.to_radians(),
+        })
+    }
+
+    /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.
+    pub fn angle_range_rad(&self) -> (f64, f64) {
+        match (self.angle_min_rad.is_finite(), self.angle_max_rad.is_finite()) {
+            (true, true) => (self.angle_min_rad, self.angle_max_rad),
+            (true, false) => (self.angle_min_rad, self.angle_min_rad + 2.0 * PI),
+            (false, true) => (self.angle_max_rad - 2.0 * PI, self.angle_max_rad),
+            (false, false) => (-PI, PI),
+        }
+    }
+}
