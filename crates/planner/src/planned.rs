@@ -60,7 +60,7 @@ impl Planned {
         let timing_s = timing(&found, checking.elapsed());
         let terminal = Terminal::reached(scenario, &trajectory);
         let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
-        let mut notes = found.notes;
+        let mut notes = [scenario.notes(), &found.notes].concat();
         notes.extend(hints(scenario, &trajectory, status));
         let solution = Solution {
             schema: SCHEMA.to_owned(),

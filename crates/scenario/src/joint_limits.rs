@@ -7,10 +7,12 @@ use crate::file;
 use crate::json::{Bounds, Location, Number};
 
 const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
-const RATE_DEG_S: Bounds = Bounds::Above(0.0, 36_000.0);
-const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 360_000.0);
+// Of a clock that runs a hundred times slower, too.
+const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
+const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 3.6e9);
 
-/// What a joint can do.
+/// What a joint can do. One whose smallest angle is its largest is locked: it holds that angle,
+/// whatever its rate and acceleration could be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLimits {
     /// Smallest angle, rad; −∞ if there is none.
@@ -32,21 +34,30 @@ impl JointLimits {
         };
         let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
         let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
-        if min_deg >= max_deg {
-            let allowed = format!("less than angle_max_deg, {}", Number(max_deg));
+        if min_deg > max_deg {
+            let allowed = format!("at most angle_max_deg, {}", Number(max_deg));
             return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
         }
-        let rate_place = place.key("rate_max_deg_s");
+        place.key("rate_max_deg_s").within(row.rate_max_deg_s, RATE_DEG_S)?;
         let acceleration_place = place.key("acceleration_max_deg_s2");
-        let rate_max_deg_s = rate_place.within(row.rate_max_deg_s, RATE_DEG_S)?;
-        let acceleration_max_deg_s2 =
-            acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
-        Ok(Self {
-            angle_min_rad: min_deg.to_radians(),
-            angle_max_rad: max_deg.to_radians(),
-            rate_max_rad_s: rate_max_deg_s.to_radians(),
-            acceleration_max_rad_s2: acceleration_max_deg_s2.to_radians(),
-        })
+        acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        Ok(Self::of(row))
+    }
+
+    /// The limits of a row that was checked.
+    pub(crate) fn of(row: &file::Link) -> Self {
+        let angle_rad = |degrees: Option<f64>, none: f64| degrees.map_or(none, f64::to_radians);
+        Self {
+            angle_min_rad: angle_rad(row.angle_min_deg, f64::NEG_INFINITY),
+            angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
+            rate_max_rad_s: row.rate_max_deg_s.to_radians(),
+            acceleration_max_rad_s2: row.acceleration_max_deg_s2.to_radians(),
+        }
+    }
+
+    /// Whether the joint cannot move: its smallest angle is its largest.
+    pub fn is_locked(&self) -> bool {
+        self.angle_min_rad == self.angle_max_rad
     }
 
     /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.

@@ -32,11 +32,16 @@ pub mod file;
 pub mod file_io;
 pub mod file_kind;
 pub mod halton;
+mod inertias;
 pub mod initial;
 pub mod joint_limits;
 pub mod json;
+mod model_error;
+mod rounding;
 pub mod scenario;
 pub mod schema;
+mod start_clearance;
+mod start_limits;
 pub mod system_description;
 pub mod wheels;
 

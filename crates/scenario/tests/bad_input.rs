@@ -236,7 +236,7 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/initial/joint_angles_deg", json!([0, 0, 0]), "an array of 4, one a joint"),
         ("/initial/joint_angles_deg", json!([0, 0, 0, 0, 0]), "an array of 4, one a joint"),
         ("/initial/joint_angles_deg/1", json!(91), "-90 to 90, the limits of joint 2"),
-        ("/initial/joint_angles_deg/2", json!(-50.001), "-50 to 50, the limits of joint 3"),
+        ("/initial/joint_angles_deg/2", json!(-50.002), "-50 to 50, the limits of joint 3"),
         ("/initial/joint_angles_deg/0", json!(1e308), "found 1e308, expected"),
         ("/initial/joint_rates_deg_s", json!([0]), "an array of 4, one a joint"),
         ("/initial/angular_rate_deg_s", json!([0, 0]), "an array of 3"),
@@ -262,8 +262,8 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/system/links/3/alpha_deg", json!(361), "from -360 to 360"),
         ("/system/links/3/d_m", json!(-1e308), "found -1e308, expected"),
         ("/system/links/3/theta_deg", json!(1e9), "from -360 to 360"),
-        ("/system/links/3/angle_min_deg", json!(35), "less than angle_max_deg, 35"),
-        ("/system/links/3/angle_min_deg", json!(90), "less than angle_max_deg, 35"),
+        ("/system/links/3/angle_min_deg", json!(35.5), "at most angle_max_deg, 35"),
+        ("/system/links/3/angle_min_deg", json!(90), "at most angle_max_deg, 35"),
         ("/system/links/3/angle_max_deg", json!(1e308), "found 1e308, expected"),
         ("/system/links/3/rate_max_deg_s", json!(0), "above 0"),
         ("/system/links/3/rate_max_deg_s", json!(-17.2), "above 0"),
@@ -374,20 +374,37 @@ fn fields_that_contradict_each_other_are_refused() {
         (
             vec![("/system/links/0/body_exempt", json!(false))],
             "initial.joint_angles_deg",
-            "set its body_exempt",
+            "found a start with link 1 0.25 m from the base's center of mass, expected at least \
+             0.443013 m, keep-out radius and clearance (or set system.links[0].body_exempt)",
         ),
         (
             vec![("/initial/joint_angles_deg", json!([0, 90, 50, 35]))],
             "initial.joint_angles_deg",
-            "a start with link 4 0.4366 m from the base's center of mass",
+            "found a start with link 4 0.436551 m from the base's center of mass",
         ),
         (
             vec![
-                ("/collision/clearance_m", json!(0.26)),
+                ("/system/links/2/angle_max_deg", json!(170)),
+                ("/initial/joint_angles_deg", json!([0, 0, 170, 0])),
+                ("/collision/clearance_m", json!(0.05)),
+            ],
+            "initial.joint_angles_deg",
+            "found a start with link 4 0.271835 m from the base's center of mass, links 1 and 3 0.043412 \
+             m apart, links 1 and 4 0.0435779 m apart, links 2 and 4 0.043412 m apart, expected at least \
+             0.483013 m, keep-out radius and clearance, and between links the clearance, 0.05 m (or set \
+             system.links[3].body_exempt, and collision.clearance_m to 0.0434)",
+        ),
+        (
+            vec![
+                ("/system/links/2/angle_max_deg", json!(170)),
+                ("/initial/joint_angles_deg", json!([0, 0, 170, 0])),
+                ("/collision/clearance_m", json!(0.05)),
                 ("/system/base/keep_out_radius_m", json!(0.2)),
             ],
             "initial.joint_angles_deg",
-            "found a start with links 1 and 3 0.2500 m apart, expected at least the clearance, 0.26 m",
+            "found a start with links 1 and 3 0.043412 m apart, links 1 and 4 0.0435779 m apart, links 2 \
+             and 4 0.043412 m apart, expected at least the clearance, 0.05 m (or set \
+             collision.clearance_m to 0.0434)",
         ),
         (vec![("/solver/guess", json!({ "starts": 0 }))], "solver.guess.starts", "from 1 to 1000"),
         (vec![("/solver/guess", json!({ "starts": -1 }))], "solver.guess.starts", "a whole number"),

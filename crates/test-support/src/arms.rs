@@ -57,6 +57,7 @@ fn link() -> impl Strategy<Value = file::Link> {
             rate_max_deg_s: 1000.0,
             acceleration_max_deg_s2: 1000.0,
             body_exempt: false,
+            inertial_frame: None,
             center_of_mass_m,
             inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
         },
@@ -94,6 +95,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                 mount: file::Mount { position_m, rotation },
                 dh_convention,
                 links,
+                project_inertias: false,
                 payload,
             };
             let scenario = file::Scenario {
