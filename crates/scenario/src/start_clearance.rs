@@ -145,8 +145,9 @@ impl Start<'_> {
             self.of(system).missing_m(&CollisionModel::new(system, clearance_m))
         };
         let lower = |system: &SystemDescription| {
-            let lower_m = rounded_down(clearance_m - missing_m(system, clearance_m));
-            (lower_m >= 0.0 && missing_m(system, lower_m) <= 0.0)
+            let has_m = clearance_m - missing_m(system, clearance_m);
+            let lower_m = if has_m > 0.0 { rounded_down(has_m) } else { has_m };
+            (lower_m >= 0.0 && missing_m(system, lower_m) <= self.slack_m())
                 .then(|| format!("{} to {}", self.clearance.path(), Number(lower_m)))
         };
         let is_exempting = !inside.is_empty();
@@ -218,9 +219,9 @@ impl Start<'_> {
     }
 }
 
-/// The number rounded down to three significant digits.
+/// A positive number rounded down to three significant digits.
 fn rounded_down(value: f64) -> f64 {
-    let Number(nearest) = Number::rounded(value, 3);
-    let Number(lower) = Number::rounded(value * (1.0 - 5e-3), 3);
-    if nearest <= value { nearest } else { lower }
+    let scale = 10.0_f64.powi(2 - value.log10().floor() as i32);
+    let Number(rounded) = Number::rounded((value * scale).floor() / scale, 3);
+    rounded
 }

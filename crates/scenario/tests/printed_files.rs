@@ -77,7 +77,7 @@ fn a_quaternion_of_four_digits_is_one() {
 
 #[test]
 fn a_limit_that_the_start_is_past_by_rounding_is_widened_to_it() {
-    // 90° from a program that has its limit in single precision.
+    // The limit as a program in single precision prints a round angle.
     let scenario = slew_with(|file| {
         system(file).links[1].angle_max_deg = Some(44.999_637_501_4);
         file.initial.joint_angles_deg[1] = 45.0;
