@@ -47,6 +47,22 @@ fn samples_of_the_paper_s_arm_average_to_its_figures() {
     close(mean(1), 2.21, 0.07);
 }
 
+/// Two links one after the other, and a second joint that is locked: one link of twice the length.
+#[test]
+fn a_locked_joint_adds_nothing() {
+    let links = |second: serde_json::Value| {
+        parsed(serde_json::json!([link(5.0, 0.5, None), second]), 300.0)
+    };
+    let locked = links(link(5.0, 0.5, Some(0.0)));
+    assert!(locked.joint_limits[1].is_locked());
+    let one = parsed(serde_json::json!([link(10.0, 1.0, None)]), 300.0);
+    let [found, expected] =
+        [&locked, &one].map(|system| envelopes(system, 100, 1, &WheelArray::pyramid()));
+    close(found.momentum.true_max, expected.momentum.true_max, 1e-9);
+    close(found.torque.true_max, expected.torque.true_max, 1e-9);
+    close(sampled_maxima(&locked, 2000, 1)[0], expected.momentum.true_max, 0.01);
+}
+
 #[test]
 fn the_true_envelope_of_the_paper_s_arm() {
     let arm = system("xlink_4dof.json");
