@@ -44,7 +44,7 @@ fn the_message_names_the_field_and_what_is_expected() {
         (
             "/horizon/duration_s",
             json!(-1),
-            "horizon.duration_s: found -1, expected a number above 0 and up to 1000000",
+            "horizon.duration_s: found -1, expected a number above 0 and up to 1e8",
         ),
         (
             "/horizon/duration_s",
