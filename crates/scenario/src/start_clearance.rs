@@ -54,9 +54,9 @@ impl Start<'_> {
             return Ok(asked);
         }
         let lowered_m = clearance_m - missing_m;
-        let lowered = CollisionModel::new(self.system, lowered_m);
         let is_rounding = missing_m <= PRINTED * self.reach_m() && lowered_m >= 0.0;
-        if !is_rounding || self.missing_m(&lowered) > self.slack_m() {
+        let lowered = CollisionModel::new(self.system, lowered_m);
+        if !is_rounding || !self.is_good(&lowered) {
             return Err(self.refusal(&asked));
         }
         notes.push(self.clearance.note(format_args!(
@@ -90,25 +90,35 @@ impl Start<'_> {
         missing_m.fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// An exempt link that starts outside the keep-out sphere with its clearance, and its distance from
+    /// the base's center of mass, m.
+    fn needless_exemption(&self, collision: &CollisionModel) -> Option<(usize, f64)> {
+        let posture = self.system.model.kinematics(self.joint_angles_rad);
+        let inside_m = collision.body_distance_m + self.slack_m();
+        self.exempt()
+            .map(|link| (link, distance_to_body(&posture, link)))
+            .find(|&(_, distance_m)| distance_m > inside_m)
+    }
+
+    /// Exempt links with length.
+    fn exempt(&self) -> impl Iterator<Item = usize> {
+        let system = self.system;
+        (0..system.joint_count())
+            .filter(move |&link| system.body_exempt[link] && has_length(&system.model, link))
+    }
+
+    /// Whether nothing is too close and nothing exempt without need.
+    fn is_good(&self, collision: &CollisionModel) -> bool {
+        self.missing_m(collision) <= self.slack_m() && self.needless_exemption(collision).is_none()
+    }
+
     /// What is too close, and which fields to change.
     fn refusal(&self, collision: &CollisionModel) -> Error {
-        let meters = |length_m: f64| Number::rounded(length_m, 6);
         let mut close = self.clearances(collision);
         close.retain(|clearance| clearance.distance_m < clearance.least_m - self.slack_m());
-        let named = close.iter().take(MOST_NAMED).map(|clearance| {
-            let distance_m = meters(clearance.distance_m);
-            match clearance.between {
-                Between::LinkAndBody(link) => {
-                    format!("link {} {distance_m} m from the base's center of mass", link + 1)
-                }
-                Between::Links(a, b) => {
-                    format!("links {} and {} {distance_m} m apart", a + 1, b + 1)
-                }
-            }
-        });
-        let mut found = format!("a start with {}", named.collect::<Vec<_>>().join(", "));
+        let mut found: Vec<String> = close.iter().take(MOST_NAMED).map(distance).collect();
         if close.len() > MOST_NAMED {
-            found.push_str(&format!(" and {} more too close", close.len() - MOST_NAMED));
+            found.push(format!("{} more too close", close.len() - MOST_NAMED));
         }
         let inside: Vec<usize> = close
             .iter()
@@ -130,7 +140,7 @@ impl Start<'_> {
         if !ways_out.is_empty() {
             expected.push_str(&format!(" (or set {})", ways_out.join(", or ")));
         }
-        self.angles.refuse(found, expected)
+        self.angles.refuse(format!("a start with {}", found.join(", ")), expected)
     }
 
     /// Fields that make this start a good one. Each was tried.
@@ -139,25 +149,27 @@ impl Start<'_> {
         for &link in inside {
             exempting.body_exempt[link] = true;
         }
+        let exempting = self.of(&exempting);
         let exempt = |&link: &usize| self.links.index(link).key("body_exempt").path().to_owned();
         let exempt = inside.iter().map(exempt).collect::<Vec<_>>().join(" and ");
-        let missing_m = |system: &SystemDescription, clearance_m: f64| {
-            self.of(system).missing_m(&CollisionModel::new(system, clearance_m))
-        };
-        let lower = |system: &SystemDescription| {
-            let has_m = clearance_m - missing_m(system, clearance_m);
+        let lower = |start: &Start<'_>| {
+            let asked = CollisionModel::new(start.system, clearance_m);
+            let has_m = clearance_m - start.missing_m(&asked);
             let lower_m = if has_m > 0.0 { rounded_down(has_m) } else { has_m };
-            (lower_m >= 0.0 && missing_m(system, lower_m) <= self.slack_m())
+            (lower_m >= 0.0 && start.is_good(&CollisionModel::new(start.system, lower_m)))
                 .then(|| format!("{} to {}", self.clearance.path(), Number(lower_m)))
         };
-        let is_exempting = !inside.is_empty();
-        let is_enough = is_exempting && missing_m(&exempting, clearance_m) <= self.slack_m();
-        let ways_out: Vec<String> =
-            is_enough.then(|| exempt.clone()).into_iter().chain(lower(self.system)).collect();
-        if !ways_out.is_empty() || !is_exempting {
-            return ways_out;
+        let mut ways_out = Vec::new();
+        if !inside.is_empty()
+            && exempting.is_good(&CollisionModel::new(exempting.system, clearance_m))
+        {
+            ways_out.push(exempt.clone());
         }
-        lower(&exempting).map(|lower| format!("{exempt}, and {lower}")).into_iter().collect()
+        ways_out.extend(lower(self));
+        if ways_out.is_empty() && !inside.is_empty() {
+            ways_out.extend(lower(&exempting).map(|lower| format!("{exempt}, and {lower}")));
+        }
+        ways_out
     }
 
     /// The same start of another system.
@@ -178,36 +190,29 @@ impl Start<'_> {
         collision: &CollisionModel,
         notes: &mut Vec<String>,
     ) -> Result<(), Error> {
-        let Self { system, joint_angles_rad, .. } = self;
-        let model = &system.model;
-        let exempt: Vec<usize> = (0..system.joint_count())
-            .filter(|&link| system.body_exempt[link] && has_length(model, link))
-            .collect();
+        if let Some((link, distance_m)) = self.needless_exemption(collision) {
+            let allowed = format!(
+                "false: link {} starts {} m from the base's center of mass, outside the keep-out \
+                 sphere with its clearance, {} m",
+                link + 1,
+                meters(distance_m),
+                meters(collision.body_distance_m)
+            );
+            return Err(self.links.index(link).key("body_exempt").refuse(true, allowed));
+        }
+        let exempt: Vec<usize> = self.exempt().collect();
         if exempt.is_empty() {
             return Ok(());
         }
-        let posture = model.kinematics(joint_angles_rad);
-        let inside_m = collision.body_distance_m + self.slack_m();
-        for &link in &exempt {
-            let distance_m = distance_to_body(&posture, link);
-            if distance_m > inside_m {
-                let allowed = format!(
-                    "false: link {} starts {} m from the base's center of mass, outside the \
-                     keep-out sphere with its clearance, {} m",
-                    link + 1,
-                    Number::rounded(distance_m, 6),
-                    Number::rounded(collision.body_distance_m, 6)
-                );
-                return Err(self.links.index(link).key("body_exempt").refuse(true, allowed));
-            }
-        }
-        let mut farthest_m = vec![0.0_f64; system.joint_count()];
-        for sample in Halton::new(system.joint_count()).take(SAMPLES) {
-            let posture = model.kinematics(&system.joint_angles_at(&sample));
+        let joints = self.system.joint_count();
+        let mut farthest_m = vec![0.0_f64; joints];
+        for sample in Halton::new(joints).take(SAMPLES) {
+            let posture = self.system.model.kinematics(&self.system.joint_angles_at(&sample));
             for &link in &exempt {
                 farthest_m[link] = farthest_m[link].max(distance_to_body(&posture, link));
             }
         }
+        let inside_m = collision.body_distance_m + self.slack_m();
         for link in exempt.into_iter().filter(|&link| farthest_m[link] > inside_m) {
             notes.push(self.links.index(link).key("body_exempt").note(format_args!(
                 "link {} starts inside the keep-out sphere and can leave it: it is not kept away \
@@ -217,6 +222,22 @@ impl Start<'_> {
         }
         Ok(())
     }
+}
+
+/// Such as "links 1 and 3 0.04 m apart".
+fn distance(clearance: &Clearance) -> String {
+    let distance_m = meters(clearance.distance_m);
+    match clearance.between {
+        Between::LinkAndBody(link) => {
+            format!("link {} {distance_m} m from the base's center of mass", link + 1)
+        }
+        Between::Links(a, b) => format!("links {} and {} {distance_m} m apart", a + 1, b + 1),
+    }
+}
+
+/// A length as a message gives it.
+fn meters(length_m: f64) -> Number {
+    Number::rounded(length_m, 6)
 }
 
 /// A positive number rounded down to three significant digits.

@@ -186,6 +186,8 @@ fn an_unknown_field_is_named_with_the_nearest_one() {
         ("/system/links/1/angle_max", "angle_max_deg"),
         ("/system/links/1/body_exemt", "body_exempt"),
         ("/system/links/1/center_of_mass", "center_of_mass_m"),
+        ("/system/links/1/inertia_frame", "inertial_frame"),
+        ("/system/project_inertia", "project_inertias"),
     ] {
         let text = with(pointer, json!(1)).to_string();
         assert_complains(&text, &path_of(pointer), &format!("did you mean `{nearest}`?"));
@@ -270,6 +272,14 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/system/links/3/acceleration_max_deg_s2", json!(0), "above 0"),
         ("/system/links/3/center_of_mass_m", json!([0, 0]), "an array of 3"),
         ("/system/links/3/inertia_kg_m2", json!([[1, 0, 0], [0, 1, 0]]), "an array of 3"),
+        (
+            "/system/links/3/inertial_frame",
+            json!("Own"),
+            "found \"Own\", expected \"own\" or \"previous\"; did you mean \"own\"?",
+        ),
+        ("/system/links/3/inertial_frame", json!(3), "expected \"own\" or \"previous\""),
+        ("/system/project_inertias", json!("yes"), "found \"yes\", expected true or false"),
+        ("/system/project_inertias", json!(1), "found 1, expected true or false"),
         ("/system/payload", json!({ "mass_kg": -1 }), ""),
     ] {
         let path = match path_of(pointer).as_str() {
@@ -399,7 +409,7 @@ fn fields_that_contradict_each_other_are_refused() {
                 ("/system/links/2/angle_max_deg", json!(170)),
                 ("/initial/joint_angles_deg", json!([0, 0, 170, 0])),
                 ("/collision/clearance_m", json!(0.05)),
-                ("/system/base/keep_out_radius_m", json!(0.2)),
+                ("/system/base/keep_out_radius_m", json!(0.22)),
             ],
             "initial.joint_angles_deg",
             "found a start with links 1 and 3 0.043412 m apart, links 1 and 4 0.0435779 m apart, links 2 \

@@ -128,6 +128,27 @@ fn a_smaller_clearance_is_named_where_it_is_enough() {
     with(0.00689).unwrap();
 }
 
+/// Less clearance would put link 3 outside, but link 2, which is exempt, too.
+#[test]
+fn no_way_out_is_named_that_is_none() {
+    let exempt = |links: &'static [usize], keep_out_m: f64, clearance_m: f64| {
+        folded(move |file, system| {
+            links.iter().for_each(|&link| system.links[link].body_exempt = true);
+            system.base.keep_out_radius_m = Some(keep_out_m);
+            file.collision.clearance_m = Some(clearance_m);
+        })
+    };
+    // Link 2 is at 0.204873 m, link 3 at 0.186899 m.
+    let refused = exempt(&[1], 0.18, 0.03).unwrap_err().to_string();
+    assert!(refused.ends_with("(or set system.links[2].body_exempt)"), "{refused}");
+    let lowered = exempt(&[1], 0.18, 0.0068).unwrap_err().to_string();
+    assert!(
+        lowered.contains("system.links[1].body_exempt: found true, expected false"),
+        "{lowered}"
+    );
+    exempt(&[1, 2], 0.18, 0.03).unwrap();
+}
+
 #[test]
 fn a_link_that_never_leaves_is_exempt_without_a_word() {
     let scenario = shipped("slew_4dof");
