@@ -44,6 +44,7 @@ impl Parts {
             let Some(inertia) = self.inertia(part) else { return Err(refuse(error, place, "")) };
             let nearest = nearest_inertia(inertia);
             let change = (nearest - *inertia).norm() / inertia.norm();
+            let moments = [moments(inertia), moments(&nearest)];
             *inertia = nearest;
             if !system.project_inertias && change > PRINTED {
                 // The way out is named where it leads out.
@@ -56,8 +57,10 @@ impl Parts {
             }
             replaced.push(part);
             write(part, &nearest, system);
+            let [given, taken] = moments;
             notes.push(place_of(part, place).key("inertia_kg_m2").note(format_args!(
-                "changed by {} % (Frobenius norm) to the nearest inertia that a rigid body can have",
+                "changed by {} % (Frobenius norm) to the nearest inertia that a rigid body can have: \
+                 principal moments from {given} to {taken}",
                 Number::rounded(100.0 * change, 2)
             )));
         }
@@ -76,6 +79,14 @@ impl Parts {
             Part::Payload => self.payload.as_mut()?.inertia_kg_m2.as_mut(),
         }
     }
+}
+
+/// The principal moments of the symmetric part, smallest first, as a note gives them.
+fn moments(inertia: &Matrix3<f64>) -> String {
+    let mut moments = ((inertia + inertia.transpose()) * 0.5).symmetric_eigenvalues();
+    moments.as_mut_slice().sort_by(f64::total_cmp);
+    let [a, b, c] = moments.data.0[0].map(|moment| Number::rounded(moment, 4));
+    format!("{a}, {b}, {c}")
 }
 
 /// The part whose inertia no rigid body has, if that is what is wrong.

@@ -2,7 +2,9 @@
 //!
 //! A file is parsed twice. [`mod@file`] mirrors the JSON; [`Scenario`], [`SystemDescription`] and
 //! [`WheelArray`] are what it means, in SI units and radians, every default filled in. An error names
-//! the file, the field, what stands there and what is expected there.
+//! the file, the field, what stands there and what is expected there. What is accepted with an
+//! assumption, such as a number that is off by the rounding of printed digits, is said in
+//! [`Scenario::notes`], and the resolved file holds what was taken instead.
 //!
 //! ```
 //! use std::path::Path;

@@ -39,7 +39,7 @@ pub struct SystemDescription {
     pub keep_out_radius_m: f64,
     /// Limits, one a joint.
     pub joint_limits: Vec<JointLimits>,
-    /// Whether a link is part of the mount and so may be inside the keep-out sphere; one a link.
+    /// Whether a link may be inside the keep-out sphere, such as a part of the mount; one a link.
     pub body_exempt: Vec<bool>,
 }
 

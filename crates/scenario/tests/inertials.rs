@@ -111,9 +111,9 @@ fn a_base_and_a_payload_are_projected_too() {
         scenario.notes(),
         [
             "system.base.inertia_kg_m2: changed by 58 % (Frobenius norm) to the nearest inertia that a \
-             rigid body can have",
+             rigid body can have: principal moments from 0, 0, 6 to 2, 2, 4",
             "system.payload.inertia_kg_m2: changed by 6.4 % (Frobenius norm) to the nearest inertia that \
-             a rigid body can have"
+             a rigid body can have: principal moments from 1, 1, 2.3 to 1.1, 1.1, 2.2"
         ]
     );
     // The base's must be positive definite: a line's is not, and no way out is named that is none.
