@@ -2,6 +2,7 @@
 //!
 //! - [`envelope`]: all momenta and torques that the arm can give, beside reaction wheels;
 //! - [`detumble`]: the least angular rate that momentum leaves with the arm at rest;
+//! - [`holonomy`]: how the arm turns the base when there is no momentum;
 //! - [`power`]: torques of a plan's joints, and the power they draw;
 //! - [`histories`]: momentum and clearances along a plan.
 //!
@@ -21,6 +22,7 @@
 pub mod detumble;
 pub mod envelope;
 pub mod histories;
+pub mod holonomy;
 pub mod hull;
 pub mod power;
 pub mod zonotope;
