@@ -25,6 +25,7 @@ mod aem;
 mod asked;
 mod attitude;
 mod axis;
+mod body_view;
 mod chart;
 mod clearances;
 mod convergence;
