@@ -36,6 +36,7 @@ pub mod json;
 pub mod scenario;
 pub mod schema;
 pub mod system_description;
+pub mod system_or_scenario;
 pub mod wheels;
 
 pub use collision::CollisionModel;
@@ -43,4 +44,5 @@ pub use error::Error;
 pub use initial::Initial;
 pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use system_description::{JointLimits, SystemDescription};
+pub use system_or_scenario::SystemOrScenario;
 pub use wheels::WheelArray;

@@ -9,7 +9,7 @@ use righting_multibody::{ModelError, Part, Quaternion, System};
 use crate::error::Error;
 use crate::file;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
-use crate::scenario::Scenario;
+use crate::system_or_scenario::SystemOrScenario;
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
@@ -111,12 +111,7 @@ impl SystemDescription {
 /// # Errors
 /// As reading either.
 pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> {
-    let document = Document::read(file, FileKind::SystemOrScenario)?;
-    if document.has_key("system") {
-        Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
-    } else {
-        SystemDescription::from_file(&document.decode()?, &Location::root(file))
-    }
+    Ok(SystemOrScenario::read(file)?.system().clone())
 }
 
 /// Reads a system file without checking its values.
