@@ -75,6 +75,7 @@ impl Planned {
             timing_s,
             verification,
             bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
+            stopped_deg_s: is_detumble.then(|| scenario.stopped_rate_rad_s().to_degrees()),
             reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
             notes,
             attempts: found.attempts.iter().map(attempt_record).collect(),

@@ -30,10 +30,11 @@ impl Terminal {
         }
     }
 
-    /// By how much a detumble has reduced the base's angular rate, %.
+    /// By how much less the base turns after a detumble than with the arm simply stopped at the start
+    /// ([`Scenario::stopped_rate_rad_s`]), %.
     pub fn reduction_percent(&self, scenario: &Scenario) -> f64 {
-        let start_deg_s = scenario.initial().angular_rate_rad_s.norm().to_degrees();
-        100.0 * (1.0 - self.angular_rate_deg_s / start_deg_s)
+        let stopped_deg_s = scenario.stopped_rate_rad_s().to_degrees();
+        100.0 * (1.0 - self.angular_rate_deg_s / stopped_deg_s)
     }
 }
 

@@ -236,6 +236,12 @@ impl Scenario {
         self.solver
     }
 
+    /// The rate that the base has once the arm is simply stopped in its posture at the start,
+    /// ‖Ĩ(q₀)⁻¹ h₀‖, rad/s: its rate at the start if the joints are at rest there.
+    pub fn stopped_rate_rad_s(&self) -> f64 {
+        stopped_rate_rad_s(&self.initial, &self.system)
+    }
+
     /// The scenario as a file, its system inline and every default filled in.
     pub fn resolved(&self) -> &file::Scenario {
         &self.resolved
@@ -343,12 +349,7 @@ fn check_momentum(
     system: &SystemDescription,
     place: &Location,
 ) -> Result<(), Error> {
-    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
-    let arm_at_rest = vec![0.0; system.joint_count()];
-    let rate_rad_s = system
-        .model
-        .reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum)
-        .norm();
+    let rate_rad_s = stopped_rate_rad_s(initial, system);
     let place = place.key("angular_rate_deg_s");
     let [x, y, z] = given.angular_rate_deg_s.unwrap_or_default().map(Number);
     let value = format!("[{x}, {y}, {z}]");
@@ -370,6 +371,14 @@ fn check_momentum(
         }
         _ => Ok(()),
     }
+}
+
+/// ‖Ĩ(q₀)⁻¹ h₀‖, rad/s.
+fn stopped_rate_rad_s(initial: &Initial, system: &SystemDescription) -> f64 {
+    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
+    let arm_at_rest = vec![0.0; system.joint_count()];
+    let model = &system.model;
+    model.reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum).norm()
 }
 
 fn horizon(horizon: &file::Horizon, place: &Location) -> Result<Horizon, Error> {

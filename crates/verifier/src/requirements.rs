@@ -39,7 +39,7 @@ impl Requirements {
         let model = Model::new(system);
         let start = start(&model, &file.initial);
         Self {
-            goal: Goal::new(&file.maneuver, &State::from_slice(&start)),
+            goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             clearances: Clearances::new(system, file.collision.clearance_m.unwrap_or(0.0)),

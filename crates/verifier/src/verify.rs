@@ -229,7 +229,7 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
             single("attitude error at the end", "", reached.attitude_error, ATTITUDE_ERROR);
             (SLEW_AT_REST_DEG_S, SLEW_AT_REST_DEG_S)
         }
-        Goal::LessRate { start_deg_s } => (start_deg_s, DETUMBLE_AT_REST_DEG_S),
+        Goal::LessRate { stopped_deg_s } => (stopped_deg_s, DETUMBLE_AT_REST_DEG_S),
     };
     single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);
     single("joint rate at the end", "deg/s", reached.joint_rate_deg_s, joint_rate);
