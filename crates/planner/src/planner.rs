@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use righting_analysis::Impossible;
 use righting_ocp::{Control, OcpError};
 use righting_results::IterationRecord;
 use righting_results::trajectory::Trajectory;
@@ -102,7 +103,8 @@ impl<'a> Planner<'a> {
     ///
     /// # Errors
     /// [`PlanError::Ocp`] when there is nothing to optimize, [`PlanError::Shape`] when the earlier plan's
-    /// arm has another number of joints.
+    /// arm has another number of joints, [`PlanError::Impossible`] when no motion of the arm makes the
+    /// maneuver: that is known before anything is solved.
     pub fn plan(
         &mut self,
         scenario: &Scenario,
@@ -119,6 +121,9 @@ impl<'a> Planner<'a> {
         };
         let earlier = self.earlier.or(nearest.as_ref().map(|near| &near.trajectory));
         require_same_joints(scenario, earlier)?;
+        if let Some(reason) = Impossible::of(scenario) {
+            return Err(reason.into());
+        }
 
         let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
         let mut is_late = false;
@@ -160,4 +165,7 @@ pub enum PlanError {
     /// The parts of the trajectory do not fit together.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// No motion of the arm makes the maneuver.
+    #[error(transparent)]
+    Impossible(#[from] Impossible),
 }
