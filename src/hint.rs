@@ -47,6 +47,7 @@ impl Failure {
                 Some("raise solver.max_iterations, or try solver.guess \"auto\"")
             }
             Self::NoPlan { .. } => Some("another solver.guess or a longer duration may help"),
+            Self::Impossible(_) => Some("`righting explain` says what this arm can do"),
             Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
             Self::OutOfReach { .. } => Some(
                 "wider limits, a smaller weights.control or more --starts may make it possible",

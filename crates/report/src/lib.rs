@@ -55,6 +55,7 @@ pub mod style;
 mod summary;
 mod svg;
 mod table;
+mod turn_rates;
 
 pub use aem::{AemOptions, aem};
 pub use attitude::attitude_svg;
@@ -78,3 +79,4 @@ pub use slew_limits::slew_limits_svg;
 pub use slews::slews_svg;
 pub use sparsity::sparsity_svg;
 pub use summary::{status_phrase, summary, verification_summary};
+pub use turn_rates::turn_rates_svg;
