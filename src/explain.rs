@@ -32,8 +32,8 @@ const HARDLY: f64 = 0.1;
 /// possible.
 ///
 /// Nothing is planned. Turn rates and durations are first estimates from some motions of the joints, timed at
-/// their limits, clearances left out: plans of the shipped slews need between a quarter and all of the time
-/// estimated. What is called impossible is.
+/// their limits, clearances left out: of eight slews tried, the estimate was between 0.6 and 4.2 times the
+/// shortest duration that `righting reach` found. What is called impossible is.
 #[derive(Args)]
 #[command(mut_arg("png", |png| png.requires("out")))]
 pub struct Arguments {
@@ -401,7 +401,7 @@ fn verdict(asked: &Asked) -> String {
     }
     let needs = match (asked.estimated_s, asked.least_s) {
         (Some(estimated), Some(least)) => format!(
-            "It takes up to about {} s, by a first estimate; the joints' rates do not allow less than {} s.",
+            "It takes about {} s, by a first estimate; the joints' rates do not allow less than {} s.",
             short(estimated),
             short(least)
         ),

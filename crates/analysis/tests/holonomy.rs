@@ -291,7 +291,7 @@ fn the_curvature_is_the_curl_of_the_connection_where_rotations_commute() {
     assert!(inside.abs() > 1e-3);
 }
 
-/// Beside the shortest durations that docs/reach.md gives, effort nearly free.
+/// Beside the shortest durations that docs/reach.md gives, effort nearly free; of the last one to 10 %.
 #[test]
 fn the_estimated_durations_are_as_rough_as_they_are_said_to_be() {
     for (name, shortest_s, times) in [
@@ -299,6 +299,7 @@ fn the_estimated_durations_are_as_rough_as_they_are_said_to_be() {
         ("slew_4dof", 8.77, 2.5),
         ("slew_canadarm2_table", 7.77, 4.2),
         ("slew75_4dof", 33.0, 4.0),
+        ("slew_canadarm2", 10.3, 0.6),
     ] {
         let scenario = shipped(name);
         let Maneuver::Slew(slew) = scenario.maneuver() else { panic!("{name} is a slew") };

@@ -97,9 +97,10 @@ impl TurnRates {
     ///
     /// A slew's arm may end anywhere. So it first swings, in the best mixture of straight motions, as far as
     /// its joints go, and turns the base by the rest in loops. Rotations are added like vectors, and
-    /// clearances are not looked at. A plan's motions are better: beside the shortest durations that
-    /// `righting reach` finds with effort nearly free, the estimate is 1.0 (`slew_2dof`), 2.5 (`slew_4dof`),
-    /// 4.2 (`slew_canadarm2_table`) and 4.0 times (`slew75_4dof`) as long.
+    /// clearances are not looked at. Beside the shortest durations that `righting reach` finds with effort
+    /// nearly free, the estimate is 1.0 (`slew_2dof`), 2.5 (`slew_4dof`), 4.2 (`slew_canadarm2_table`), 4.0
+    /// (`slew75_4dof`) and 0.6 times (`slew_canadarm2`) as long: a plan's loops are better than those looked
+    /// at, and a heavy arm on a light base turns it by angles that do not add up.
     pub fn duration_s(&self, axis: &Vector3<f64>, angle_rad: f64) -> Option<f64> {
         let axis = axis * angle_rad.signum();
         let angle_rad = angle_rad.abs();
