@@ -186,7 +186,8 @@ impl fmt::Display for Impossible {
                     0.0 => Ok(()),
                     _ => write!(
                         f,
-                        ", and about others it turns it by less than {others_deg:.2}\u{b0}"
+                        ", and about others it turns it by less than {}\u{b0}",
+                        Degrees(*others_deg)
                     ),
                 }
             }
@@ -209,8 +210,10 @@ impl fmt::Display for Impossible {
             }
             Self::TooShort { most_deg, angle_deg, duration_s } => write!(
                 f,
-                "this arm's joints are too slow for the duration; in {duration_s} s they turn the base by \
-                 less than {most_deg:.1}\u{b0}, and the angle asked is {angle_deg:.1}\u{b0}"
+                "the duration is too short for this arm; in {duration_s} s its joints turn the base by less \
+                 than {}\u{b0}, and the angle asked is {}\u{b0}",
+                Degrees(*most_deg),
+                Degrees(*angle_deg)
             ),
             Self::NothingSlows => {
                 write!(f, "nothing that this arm's joints do changes the base's rate")
@@ -225,6 +228,18 @@ impl fmt::Display for Impossible {
 }
 
 impl Error for Impossible {}
+
+/// An angle with one decimal, or two digits where that would say nothing.
+struct Degrees(f64);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self(degrees) if degrees.abs() >= 0.1 => write!(f, "{degrees:.1}"),
+            Self(degrees) => write!(f, "{degrees:.1e}"),
+        }
+    }
+}
 
 /// A unit vector with three decimals.
 pub(crate) struct Shown<'a>(pub &'a Vector3<f64>);

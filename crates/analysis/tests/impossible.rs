@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
+use proptest::collection::vec;
+use proptest::prelude::*;
 use righting_analysis::Impossible;
 use righting_analysis::detumble::{inertia_range_kg_m2, rate_bound_rad_s};
 use righting_scenario::Scenario;
+use righting_test_support::arms::arm;
 use righting_test_support::{shipped, varied};
 use serde_json::{Value, json};
 
@@ -59,6 +62,22 @@ fn parallel_joints_are_named_with_the_axis_and_the_angle_to_it() {
     assert!(planar([1e-2, 0.0, 1.0], 30.0).is_some());
 }
 
+/// A thousandth of a degree off the plane, the arm could turn the base about x in a year, not in a minute.
+#[test]
+fn an_arm_that_is_nearly_planar_is_told_in_the_time_there_is() {
+    let links = [link(10.0, 1.0, 1e-3), link(10.0, 1.0, 0.0)];
+    let scenario = slew([0.5, 0.0, 0.0], &links, [1.0, 0.0, 0.0], 30.0);
+    let Some(Impossible::OneAxis { axis, off_deg, others_deg, are_joints_parallel }) =
+        Impossible::of(&scenario)
+    else {
+        panic!("{:?}", Impossible::of(&scenario))
+    };
+    assert!(axis.z > 1.0 - 1e-6 && (off_deg - 90.0).abs() < 0.01 && !are_joints_parallel);
+    assert!(0.0 < others_deg && others_deg < 1.0, "{others_deg}");
+    let longer = varied(&scenario, |file| file.horizon.duration_s = 1e6);
+    assert_eq!(Impossible::of(&longer), None);
+}
+
 #[test]
 fn an_arm_without_mass_turns_nothing() {
     let links = [link(0.0, 0.5, 90.0), link(0.0, 1.0, 0.0)];
@@ -102,6 +121,9 @@ fn a_duration_too_short_for_the_joints_rates_is_told() {
         Impossible::of(&varied(&scenario, |file| file.horizon.duration_s = duration_s))
     };
     assert!(matches!(in_time(0.1), Some(Impossible::TooShort { .. })), "{:?}", in_time(0.1));
+    let said = in_time(0.1).unwrap().to_string();
+    assert!(said.starts_with("the duration is too short for this arm; in 0.1 s its joints turn"));
+    assert!(said.ends_with("and the angle asked is 20.0\u{b0}"), "{said}");
     for possible_s in [8.8, 30.0] {
         assert_eq!(in_time(possible_s), None);
     }
@@ -187,4 +209,49 @@ fn a_detumble_by_an_arm_without_mass_is_impossible_whatever_it_turns_about() {
     };
     assert!(matches!(about([1.0, 0.0, 0.0]), Some(Impossible::LargestInertia { .. })));
     assert_eq!(about([0.0, 0.0, 1.0]), Some(Impossible::NothingSlows));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// The attitude that joints reach in some motion of two strokes within their rates and the duration is a
+    /// target that is not called impossible.
+    #[test]
+    fn what_some_motion_reaches_is_never_called_impossible(
+        scenario in arm(1..=4),
+        strokes in vec(vec(-1.0..1.0_f64, 4), 2),
+        most_deg_s in 1.0..60.0_f64,
+    ) {
+        let scenario = varied(&scenario, |file| {
+            let righting_scenario::file::SystemReference::Inline(system) = &mut file.system else {
+                panic!("a resolved system is inline")
+            };
+            system.links.iter_mut().for_each(|link| link.rate_max_deg_s = most_deg_s);
+        });
+        let duration_s = scenario.horizon().duration_s;
+        let model = &scenario.system().model;
+        let joints = scenario.system().joint_count();
+        let steps = 2000;
+        let step_s = duration_s / f64::from(steps);
+        let mut angles = scenario.initial().joint_angles_rad.clone();
+        let mut attitude = UnitQuaternion::identity();
+        for k in 0..steps {
+            let stroke = &strokes[usize::from(k >= steps / 2)];
+            let rates: Vec<f64> =
+                stroke[..joints].iter().map(|share| share * most_deg_s.to_radians()).collect();
+            let half = |angles: &mut [f64]| {
+                angles.iter_mut().zip(&rates).for_each(|(q, rate)| *q += 0.5 * step_s * rate);
+            };
+            half(&mut angles);
+            let rate = model.reduced_angular_rate(&angles, &rates, &Vector3::zeros());
+            half(&mut angles);
+            attitude *= UnitQuaternion::new(rate * step_s);
+        }
+        let Some((axis, angle_rad)) = attitude.axis_angle() else { return Ok(()) };
+        let reached = varied(&scenario, |file| {
+            file.maneuver.axis = Some(axis.into_inner().into());
+            file.maneuver.angle_deg = Some(angle_rad.to_degrees());
+        });
+        prop_assert_eq!(Impossible::of(&reached), None);
+    }
 }
