@@ -255,3 +255,32 @@ proptest! {
         prop_assert_eq!(Impossible::of(&reached), None);
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// Where a detumble is called impossible, no posture drawn has more inertia.
+    #[test]
+    fn no_posture_beats_one_that_is_said_to_have_the_largest_inertia(
+        scenario in arm(1..=4),
+        rate_deg_s in prop::array::uniform3(-5.0..5.0_f64),
+        postures in vec(vec(0.0..1.0_f64, 4), 300),
+    ) {
+        let detumble = varied(&scenario, |file| {
+            file.maneuver = serde_json::from_value(json!({ "type": "detumble" })).unwrap();
+            file.weights = righting_scenario::file::Weights::default();
+            file.initial.angular_rate_deg_s = Some(rate_deg_s);
+        });
+        if let Some(Impossible::LargestInertia { inertia_kg_m2, .. }) = Impossible::of(&detumble) {
+            let system = detumble.system();
+            for unit in postures {
+                let posture = system.joint_angles_at(&unit[..system.joint_count()]);
+                let kinematics = system.model.kinematics(&posture);
+                let mut clearances = detumble.collision().clearances(&kinematics);
+                let is_clear = clearances.all(|kept| kept.distance_m >= kept.least_m);
+                let inertia = system.model.locked_inertia(&posture).symmetric_eigenvalues().max();
+                prop_assert!(!is_clear || inertia <= inertia_kg_m2 * (1.0 + 2e-6));
+            }
+        }
+    }
+}
