@@ -58,6 +58,7 @@ mod clearances;
 mod directory;
 mod dormand_prince;
 mod goal;
+mod joints;
 mod ledger;
 mod limits;
 pub mod model;

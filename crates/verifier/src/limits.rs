@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use righting_results::trajectory::Trajectory;
 
+use crate::joints::Joints;
 use crate::ledger::{Ledger, Subject, Worst};
-use crate::model::State;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 
@@ -24,12 +24,6 @@ struct Limits<'a> {
     links: Worst,
     /// Origins of the arm's frames in the posture looked at last.
     origins: Vec<Vector3<f64>>,
-}
-
-/// Joint angles and rates under constant acceleration.
-struct Joints {
-    angles: Vec<f64>,
-    rates: Vec<f64>,
 }
 
 pub(super) fn check(
@@ -93,22 +87,6 @@ pub(super) fn check(
 /// Times within an interval, its ends left out.
 fn sampled(duration_s: f64) -> impl Iterator<Item = f64> {
     (1..=SAMPLES).map(move |i| duration_s * i as f64 / (SAMPLES + 1) as f64)
-}
-
-impl Joints {
-    fn new(count: usize) -> Self {
-        Self { angles: vec![0.0; count], rates: vec![0.0; count] }
-    }
-
-    /// From `state`, `after_s` later.
-    fn move_on(&mut self, state: &State<'_>, control: &[f64], after_s: f64) {
-        for (joint, acceleration) in control.iter().enumerate() {
-            let (angle, rate) = (state.joint_angles[joint], state.joint_rates[joint]);
-            let gained = acceleration * after_s;
-            self.angles[joint] = angle + (rate + 0.5 * gained) * after_s;
-            self.rates[joint] = rate + gained;
-        }
-    }
 }
 
 impl<'a> Limits<'a> {
