@@ -2,7 +2,8 @@
 //! nonlinear program on a grid,
 //!
 //! ```text
-//! min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)   s.t.   x_{k+1} = F(x_k, u_k),  bounds, c(x_k), e(x_N)
+//! min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)   s.t.   x_{k+1} = F(x_k, u_k),  bounds,
+//!                                             c(x_k), s(x_k, u_k, Δt), e(x_N)
 //! ```
 //!
 //! with F one classical Runge–Kutta step (Bock & Plitt, *IFAC World Congress* 1984; Betts,
