@@ -50,6 +50,20 @@ impl Clearances {
         }
     }
 
+    /// Every distance that is kept.
+    pub fn all(&self) -> impl Iterator<Item = Between> + '_ {
+        let body = self.body_links.iter().map(|&link| Between::LinkAndBody(link));
+        body.chain(self.link_pairs.iter().map(|&(a, b)| Between::Links(a, b)))
+    }
+
+    /// The least that is allowed, m.
+    pub fn least_m(&self, between: Between) -> f64 {
+        match between {
+            Between::LinkAndBody(_) => self.least_from_body_m,
+            Between::Links(..) => self.least_between_links_m,
+        }
+    }
+
     /// Whether no distance is kept.
     pub fn is_empty(&self) -> bool {
         self.body_links.is_empty() && self.link_pairs.is_empty()

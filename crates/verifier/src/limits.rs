@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use righting_results::trajectory::Trajectory;
 
+use crate::closest_approach::{ClosestApproach, Interval};
 use crate::joints::Joints;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::requirements::Requirements;
@@ -12,7 +13,7 @@ use crate::simulation::Simulation;
 const AT_NODES: f64 = 1e-6;
 /// How far the motion between nodes may be past a limit (rad, rad/s, m).
 const BETWEEN_NODES: f64 = 1e-3;
-/// Places looked at within an interval.
+/// Places looked at within an interval, at least.
 const SAMPLES: usize = 10;
 
 /// Worst places of the quantities that have limits.
@@ -51,8 +52,9 @@ pub(super) fn check(
     let mut between = Limits::new(asked, names, BETWEEN_NODES);
     let mut acceleration = Worst::new("joint acceleration", "rad/s²", AT_NODES);
     let mut joints = Joints::new(asked.joint_limits.len());
-    for (k, (interval, state)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate()
-    {
+    let mut approach = ClosestApproach::new(asked, &simulation.start());
+    let states = simulation.nodes().zip(simulation.nodes().skip(1));
+    for (k, (interval, (state, next))) in trajectory.intervals().iter().zip(states).enumerate() {
         let control = &interval.joint_accelerations_rad_s2;
         let start_s = asked.horizon.time_s(k);
         let duration_s = asked.horizon.time_s(k + 1) - start_s;
@@ -65,6 +67,9 @@ pub(super) fn check(
             joints.move_on(&state, control, after_s);
             between.look(&joints.angles, &joints.rates, start_s + after_s);
         }
+        let interval =
+            Interval { start: state, end: next, accelerations: control, start_s, duration_s };
+        approach.follow(&interval, &mut between.body, &mut between.links);
         for (joint, rate) in state.joint_rates.iter().enumerate() {
             // A joint that turns back within the interval goes farthest between two samples.
             let after_s = -rate / control[joint];

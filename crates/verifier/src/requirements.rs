@@ -7,6 +7,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 use crate::clearances::Clearances;
 use crate::goal::Goal;
 use crate::model::{BaseAcceleration, Model, Motion, State};
+use crate::motion_bound::Reach;
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]
@@ -19,6 +20,7 @@ pub(super) struct Requirements {
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
     pub clearances: Clearances,
+    pub reach: Reach,
 }
 
 /// What a joint may do.
@@ -43,6 +45,7 @@ impl Requirements {
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             clearances: Clearances::new(system, file.collision.clearance_m.unwrap_or(0.0)),
+            reach: Reach::new(system),
             model,
             start,
         }
