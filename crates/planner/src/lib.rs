@@ -30,6 +30,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod between_nodes;
 mod formulation;
 mod hints;
 mod initial_guess;

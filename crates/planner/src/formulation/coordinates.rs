@@ -68,7 +68,8 @@ impl Coordinates {
         &x[self.joint_angle(0)..self.joint_rate(0)]
     }
 
-    fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
+    /// The joint rates among the states.
+    pub(crate) fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
         &x[self.joint_rate(0)..]
     }
 

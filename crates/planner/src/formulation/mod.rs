@@ -10,6 +10,7 @@
 //! square is smooth where two links meet.
 
 mod coordinates;
+mod stage_limits;
 #[cfg(test)]
 mod tests;
 
@@ -21,9 +22,10 @@ use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
 pub(crate) use coordinates::Coordinates;
-use righting_scenario::collision::CollisionModel;
+use righting_scenario::collision::{Between, CollisionModel};
 use righting_scenario::file::{Formulation, Guess, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
+pub(crate) use stage_limits::StageLimits;
 
 /// A scenario as an optimal control problem: what [`Planner`](crate::Planner) transcribes and solves.
 pub struct FormulatedManeuver {
@@ -37,10 +39,15 @@ pub struct FormulatedManeuver {
 impl FormulatedManeuver {
     /// In the scenario's own form.
     pub fn new(scenario: &Scenario) -> Self {
-        Self::in_form(scenario, scenario.solver().formulation)
+        Self::in_form(scenario, scenario.solver().formulation, &StageLimits::default())
     }
 
-    pub(crate) fn in_form(scenario: &Scenario, formulation: Formulation) -> Self {
+    /// In a form, with limits that are stated within the steps too.
+    pub(crate) fn in_form(
+        scenario: &Scenario,
+        formulation: Formulation,
+        stage_limits: &StageLimits,
+    ) -> Self {
         let coordinates = Coordinates::new(scenario, formulation);
         let initial = coordinates.initial(scenario.initial());
         let states = coordinates.dimension();
@@ -63,6 +70,8 @@ impl FormulatedManeuver {
         let goal = Goal::of(scenario);
         let clearances = Clearances::new(scenario);
         let path = coordinates.clone();
+        let stage_bounds = stage_limits.bounds(limits, &clearances);
+        let within = (stage_limits.clone(), coordinates.clone(), clearances.clone());
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
             .running_cost(move |_, u| sum_of_squares(u) * weights.control)
             .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
@@ -70,6 +79,10 @@ impl FormulatedManeuver {
             .control_bounds(ComponentBounds::symmetric(&accelerations))
             .path_constraints(clearances.bounds(), move |x| {
                 clearances.squared_distances(path.joint_angles(x))
+            })
+            .stage_constraints(stage_bounds, move |x, u, h| {
+                let (stage_limits, coordinates, clearances) = &within;
+                stage_limits.values(coordinates, clearances, (x, u), h)
             });
         // The paper transcribes all states, and which ones there are decides where its guess leads.
         let problem = match scenario.solver().guess {
@@ -123,15 +136,15 @@ impl Goal {
 
 /// The squared distances that the joint angles decide, with their smallest values.
 #[derive(Clone)]
-struct Clearances {
-    system: Arc<System>,
+pub(crate) struct Clearances {
+    pub(crate) system: Arc<System>,
     collision: CollisionModel,
     /// Which of all squared distances depend on the joint angles.
     varying: Vec<usize>,
 }
 
 impl Clearances {
-    fn new(scenario: &Scenario) -> Self {
+    pub(crate) fn new(scenario: &Scenario) -> Self {
         let mut clearances = Self {
             system: Arc::new(scenario.system().model.clone()),
             collision: scenario.collision().clone(),
@@ -159,13 +172,45 @@ impl Clearances {
         self.varying.iter().map(|&index| all[index]).collect()
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.varying.len()
+    }
+
+    /// Between what the one at `place` is.
+    pub(crate) fn between(&self, place: usize) -> Between {
+        let (index, body_links) = (self.varying[place], &self.collision.body_links);
+        match body_links.get(index) {
+            Some(&link) => Between::LinkAndBody(link),
+            None => {
+                let (a, b) = self.collision.link_pairs[index - body_links.len()];
+                Between::Links(a, b)
+            }
+        }
+    }
+
+    /// The least that is allowed of the one at `place`.
+    pub(crate) fn least_m(&self, place: usize) -> f64 {
+        match self.between(place) {
+            Between::LinkAndBody(_) => self.collision.body_distance_m,
+            Between::Links(..) => self.collision.clearance_m,
+        }
+    }
+
+    /// How far links keep from each other.
+    pub(crate) fn clearance_m(&self) -> f64 {
+        self.collision.clearance_m
+    }
+
+    fn squared_distance<T: Scalar>(&self, q: &[T], place: usize) -> T {
+        match self.between(place) {
+            Between::LinkAndBody(link) => self.system.squared_distance_to_base(q, link),
+            Between::Links(a, b) => self.system.squared_distance_between(q, a, b),
+        }
+    }
+
     fn bounds(&self) -> ComponentBounds {
-        let links = self.collision.body_links.len();
-        let smallest = |index: usize| match index < links {
-            true => self.collision.body_distance_m,
-            false => self.collision.clearance_m,
-        };
-        let lower: Vec<f64> = self.varying.iter().map(|&index| smallest(index).powi(2)).collect();
+        let lower: Vec<f64> = (0..self.len()).map(|place| self.least_m(place).powi(2)).collect();
         let upper = vec![f64::INFINITY; lower.len()];
         ComponentBounds::new(lower, upper)
     }

@@ -225,7 +225,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::formulation::FormulatedManeuver;
+    use crate::formulation::{FormulatedManeuver, StageLimits};
     use righting_scenario::file::Formulation;
     use righting_scenario::scenario::Scenario;
 
@@ -238,7 +238,7 @@ mod tests {
         changed.initial.joint_angles_deg = vec![20.0, 30.0, -20.0, 10.0];
         let scenario = Scenario::from_file(changed, &file).unwrap();
         let FormulatedManeuver { coordinates, initial, .. } =
-            FormulatedManeuver::in_form(&scenario, Formulation::Reduced);
+            FormulatedManeuver::in_form(&scenario, Formulation::Reduced, &StageLimits::default());
         check(&InitialGuesses {
             scenario: &scenario,
             coordinates: &coordinates,

@@ -6,8 +6,11 @@
 //!    that fails, or nothing was ranked, the asked grid is solved from the constant guess.
 //! 3. Where the Lagrangian curves downwards at the solution, it is no minimum: the search leaves it
 //!    along that direction ([`Search::leave_saddle`]).
+//! 4. Where a limit is passed between the nodes, it is stated there too, and the problem solved again
+//!    ([`Search::hold_between_nodes`]).
 
 mod batch;
+mod between_nodes;
 mod grids;
 mod model;
 mod negative_curvature;
@@ -26,7 +29,8 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::Coordinates;
+use crate::between_nodes::passed_limits;
+use crate::formulation::{Coordinates, StageLimits};
 use batch::Batch;
 use model::Model;
 
@@ -37,6 +41,8 @@ pub(crate) struct Search<'a> {
     model: Model,
     /// The reduced form, if initial guesses are ranked in it and it is not the asked one.
     ranking_model: Option<Model>,
+    /// What both state within the steps too.
+    stage_limits: StageLimits,
     /// The asked grid.
     grid: Grid,
     /// How many guesses are solved at a time at most.
@@ -82,16 +88,18 @@ impl<'a> Search<'a> {
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
         let formulation = scenario.solver().formulation;
-        let model = Model::compile(scenario, formulation)?;
+        let stage_limits = StageLimits::default();
+        let model = Model::compile(scenario, formulation, &stage_limits)?;
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
         let ranking_model = match ranks && formulation != Formulation::Reduced {
-            true => Some(Model::compile(scenario, Formulation::Reduced)?),
+            true => Some(Model::compile(scenario, Formulation::Reduced, &stage_limits)?),
             false => None,
         };
         Ok(Self {
             scenario,
             model,
             ranking_model,
+            stage_limits,
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
             threads,
             on_iteration,
@@ -119,6 +127,7 @@ impl<'a> Search<'a> {
             None => self.solved_from_constant_guess()?,
         };
         let (solution, is_minimum) = self.leave_saddle(solution)?;
+        let (solution, is_minimum) = self.hold_between_nodes(solution, is_minimum)?;
         Ok(Found {
             solution,
             is_minimum,
@@ -159,15 +168,24 @@ impl<'a> Search<'a> {
         }
         let batch = Batch { model, grid, starts: &starts };
         let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        let mut best: Option<OcpSolution> = None;
+        let mut best: Option<(bool, OcpSolution)> = None;
         for mut solution in solutions {
             self.attempts.append(&mut solution.attempts);
-            let is_better = best.as_ref().is_none_or(|best| solution.objective < best.objective);
-            if solution.status.is_success() && is_better {
-                best = Some(solution);
+            if !solution.status.is_success() {
+                continue;
+            }
+            // Of the solves that are made again because things went through each other.
+            let crosses = !self.stage_limits.clearances.is_empty()
+                && passed_limits(self.scenario, &model.coordinates, &solution, grid.step_s())
+                    .is_crossing();
+            let is_better = best.as_ref().is_none_or(|(best_crosses, best)| {
+                (crosses, solution.objective) < (*best_crosses, best.objective)
+            });
+            if is_better {
+                best = Some((crosses, solution));
             }
         }
-        Ok(best)
+        Ok(best.map(|(_, solution)| solution))
     }
 
     /// The asked grid, solved from the state held at the start.

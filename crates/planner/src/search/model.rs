@@ -6,7 +6,7 @@ use righting_results::solution::IterationRecord;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::{Coordinates, FormulatedManeuver};
+use crate::formulation::{Coordinates, FormulatedManeuver, StageLimits};
 use crate::initial_guess::InitialGuesses;
 use crate::planned::record;
 
@@ -19,9 +19,13 @@ pub(super) struct Model {
 }
 
 impl Model {
-    pub(super) fn compile(scenario: &Scenario, formulation: Formulation) -> Result<Self, OcpError> {
+    pub(super) fn compile(
+        scenario: &Scenario,
+        formulation: Formulation,
+        stage_limits: &StageLimits,
+    ) -> Result<Self, OcpError> {
         let FormulatedManeuver { problem, coordinates, initial } =
-            FormulatedManeuver::in_form(scenario, formulation);
+            FormulatedManeuver::in_form(scenario, formulation, stage_limits);
         Ok(Self { functions: StageFunctions::compile(&problem)?, coordinates, initial })
     }
 

@@ -1,0 +1,137 @@
+//! Solving again where a solution passes its limits between the nodes.
+
+use righting_ocp::{InitialGuess, OcpError, OcpSolution, close_guess_settings};
+use righting_scenario::file::{Formulation, Guess, NamedGuess};
+
+use super::model::Model;
+use super::{Search, settings, stoppable};
+use crate::between_nodes::{PassedLimits, passed_limits};
+use crate::formulation::{Clearances, StageLimits};
+
+/// How often limits are added, at most.
+const ROUNDS: usize = 4;
+/// Parts of a step between which a clearance is stated, at most.
+const MOST_PARTS: usize = 24;
+/// Iterations after which a solve that goes on from a solution is given up.
+const MOST_ITERATIONS: u32 = 200;
+
+impl Search<'_> {
+    /// The solution itself if its motion keeps the limits between the nodes too; otherwise one of the
+    /// problem that states those it passes within the steps as well, or the solution all the same if
+    /// there is none.
+    pub(super) fn hold_between_nodes(
+        &mut self,
+        solution: OcpSolution,
+        is_minimum: bool,
+    ) -> Result<(OcpSolution, bool), OcpError> {
+        let (mut solution, mut is_minimum) = (solution, is_minimum);
+        // The paper states its limits at the nodes.
+        if self.scenario.solver().guess == Guess::Named(NamedGuess::Constant) {
+            return Ok((solution, is_minimum));
+        }
+        for _ in 0..ROUNDS {
+            if !solution.status.is_success() || self.is_interrupted() {
+                break;
+            }
+            let passed = self.passed_limits(&solution);
+            if passed.is_empty() || !self.state_within_steps(&passed) {
+                break;
+            }
+            self.compile_again()?;
+            let Some(again) = self.solved_again(&solution, passed.is_crossing())? else { break };
+            (solution, is_minimum) = self.leave_saddle(again)?;
+        }
+        if !self.stage_limits.is_empty() {
+            self.notes.push(self.stage_limits_note());
+        }
+        Ok((solution, is_minimum))
+    }
+
+    fn passed_limits(&self, solution: &OcpSolution) -> PassedLimits {
+        passed_limits(self.scenario, &self.model.coordinates, solution, self.grid.step_s())
+    }
+
+    /// Adds limits; false if that changes nothing. Whoever is passed again is stated at more places.
+    fn state_within_steps(&mut self, passed: &PassedLimits) -> bool {
+        let before = self.stage_limits.clone();
+        let limits = &mut self.stage_limits;
+        // What is kept from one joint may be taken from another: no third time.
+        let every = !limits.joints.is_empty() && !passed.joints.is_empty();
+        for (joint, of_joint) in self.scenario.system().joint_limits.iter().enumerate() {
+            let has_limit =
+                of_joint.angle_min_rad.is_finite() || of_joint.angle_max_rad.is_finite();
+            if passed.joints.contains(&joint) || every && has_limit {
+                limits.joints.insert(joint, StageLimits::curves(of_joint, self.grid.step_s()));
+            }
+        }
+        for (&place, passed) in &passed.clearances {
+            let stated = limits.clearances.entry(place).or_insert(1);
+            *stated = passed.parts.max(2 * *stated).min(MOST_PARTS);
+        }
+        *limits != before
+    }
+
+    fn compile_again(&mut self) -> Result<(), OcpError> {
+        let formulation = self.scenario.solver().formulation;
+        self.model = Model::compile(self.scenario, formulation, &self.stage_limits)?;
+        if let Some(model) = &mut self.ranking_model {
+            *model = Model::compile(self.scenario, Formulation::Reduced, &self.stage_limits)?;
+        }
+        Ok(())
+    }
+
+    /// From the solution that passes limits, and where that does not converge from all guesses again.
+    /// Where things go through each other the other way around: no small change parts them, and no
+    /// gradient says where to.
+    fn solved_again(
+        &mut self,
+        solution: &OcpSolution,
+        is_crossing: bool,
+    ) -> Result<Option<OcpSolution>, OcpError> {
+        for search_anew in [is_crossing, !is_crossing] {
+            let again = match search_anew {
+                true => self.searched_anew()?,
+                false => self.continued_from(solution)?,
+            };
+            if again.is_some() || self.is_interrupted() {
+                return Ok(again);
+            }
+        }
+        Ok(None)
+    }
+
+    fn continued_from(&mut self, solution: &OcpSolution) -> Result<Option<OcpSolution>, OcpError> {
+        let guess =
+            InitialGuess { states: solution.states.clone(), controls: solution.controls.clone() };
+        let mut settings = close_guess_settings(&settings::delivered(self.scenario));
+        settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(MOST_ITERATIONS);
+        settings.retry_at_iteration_limit = false;
+        let on_iteration = stoppable(self.on_iteration, &self.stop);
+        let mut again = self.model.solve(self.grid, guess, &settings, on_iteration)?;
+        self.attempts.append(&mut again.attempts);
+        Ok(again.status.is_success().then_some(again))
+    }
+
+    fn searched_anew(&mut self) -> Result<Option<OcpSolution>, OcpError> {
+        match self.best_coarse_solution()? {
+            Some(coarse) => self.refined(coarse),
+            None => Ok(None),
+        }
+    }
+
+    fn stage_limits_note(&self) -> String {
+        let limits = &self.stage_limits;
+        let joints = limits.joints.keys().map(|joint| format!("the angle of joint {}", joint + 1));
+        let clearances = Clearances::new(self.scenario);
+        let distances = limits.clearances.iter().map(|(&place, &parts)| {
+            let between = clearances.between(place);
+            let places = if parts == 2 { "place" } else { "places" };
+            format!("the clearance of {between} (at {} {places} in every step)", parts - 1)
+        });
+        let stated: Vec<String> = joints.chain(distances).collect();
+        format!(
+            "limits that held at the nodes alone were stated within the steps too: {}",
+            stated.join(", ")
+        )
+    }
+}
