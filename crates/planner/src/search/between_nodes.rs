@@ -1,10 +1,10 @@
 //! Solving again where a solution passes its limits between the nodes.
 
-use righting_ocp::{InitialGuess, OcpError, OcpSolution, close_guess_settings};
+use righting_ocp::{Grid, InitialGuess, OcpError, OcpSolution, close_guess_settings};
 use righting_scenario::file::{Formulation, Guess, NamedGuess};
 
 use super::model::Model;
-use super::{Search, settings, stoppable};
+use super::{Search, grids, settings, stoppable};
 use crate::between_nodes::{PassedLimits, passed_limits};
 use crate::formulation::{Clearances, StageLimits};
 
@@ -12,6 +12,8 @@ use crate::formulation::{Clearances, StageLimits};
 const ROUNDS: usize = 4;
 /// Parts of a step between which a clearance is stated, at most.
 const MOST_PARTS: usize = 24;
+/// How many coarse solutions are tried in place of one in which things go through each other.
+const MOST_CANDIDATES: usize = 4;
 /// Iterations after which a solve that goes on from a solution is given up.
 const MOST_ITERATIONS: u32 = 200;
 
@@ -38,11 +40,20 @@ impl Search<'_> {
                 break;
             }
             self.compile_again()?;
-            let Some(again) = self.solved_again(&solution, passed.is_crossing())? else { break };
+            let Some(again) = self.solved_again(&solution, passed.is_crossing())? else {
+                self.notes.push(format!(
+                    "passes limits between its nodes, and no plan was found that keeps them: {}",
+                    self.stated_within_steps()
+                ));
+                return Ok((solution, is_minimum));
+            };
             (solution, is_minimum) = self.leave_saddle(again)?;
         }
         if !self.stage_limits.is_empty() {
-            self.notes.push(self.stage_limits_note());
+            self.notes.push(format!(
+                "limits that the nodes alone did not keep are stated within the steps too: {}",
+                self.stated_within_steps()
+            ));
         }
         Ok((solution, is_minimum))
     }
@@ -80,17 +91,17 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// From the solution that passes limits, and where that does not converge from all guesses again.
-    /// Where things go through each other the other way around: no small change parts them, and no
-    /// gradient says where to.
+    /// From the solution that passes limits, and where that does not converge from others. Where things go
+    /// through each other the other way around: no small change parts them, and no gradient says where
+    /// to.
     fn solved_again(
         &mut self,
         solution: &OcpSolution,
         is_crossing: bool,
     ) -> Result<Option<OcpSolution>, OcpError> {
-        for search_anew in [is_crossing, !is_crossing] {
-            let again = match search_anew {
-                true => self.searched_anew()?,
+        for from_others in [is_crossing, !is_crossing] {
+            let again = match from_others {
+                true => self.restarted_from_others()?,
                 false => self.continued_from(solution)?,
             };
             if again.is_some() || self.is_interrupted() {
@@ -112,14 +123,55 @@ impl Search<'_> {
         Ok(again.status.is_success().then_some(again))
     }
 
-    fn searched_anew(&mut self) -> Result<Option<OcpSolution>, OcpError> {
-        match self.best_coarse_solution()? {
-            Some(coarse) => self.refined(coarse),
-            None => Ok(None),
+    /// From the solutions that the initial guesses led to on the coarse grid.
+    fn restarted_from_others(&mut self) -> Result<Option<OcpSolution>, OcpError> {
+        let grid = grids::coarse(self.scenario, &self.grid)?;
+        let mut candidates: Vec<(bool, OcpSolution)> =
+            self.coarse.iter().map(|s| (self.is_crossing(grid, s), s.clone())).collect();
+        // Sorted by their objectives already, and the sort keeps that order.
+        candidates.sort_by_key(|(is_crossing, _)| *is_crossing);
+        let mut starts = Vec::new();
+        for (_, candidate) in candidates.into_iter().take(MOST_CANDIDATES) {
+            starts.extend(self.coarse_again(grid, candidate)?);
         }
+        starts.sort_by(|a, b| a.objective.total_cmp(&b.objective));
+        for start in starts {
+            if self.is_interrupted() {
+                break;
+            }
+            let found = self.refined(start)?;
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
-    fn stage_limits_note(&self) -> String {
+    /// A solution on the coarse grid with the limits within the steps; none if things go through each
+    /// other all the same.
+    fn coarse_again(
+        &mut self,
+        grid: Grid,
+        candidate: OcpSolution,
+    ) -> Result<Option<OcpSolution>, OcpError> {
+        let model = self.ranking_model.as_ref().unwrap_or(&self.model);
+        let guess = InitialGuess { states: candidate.states, controls: candidate.controls };
+        let mut settings = close_guess_settings(&settings::coarse(self.scenario));
+        settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(MOST_ITERATIONS);
+        let on_iteration = stoppable(self.on_iteration, &self.stop);
+        let mut solution = model.solve(grid, guess, &settings, on_iteration)?;
+        self.attempts.append(&mut solution.attempts);
+        let is_apart = solution.status.is_success() && !self.is_crossing(grid, &solution);
+        Ok(is_apart.then_some(solution))
+    }
+
+    /// Whether things go through each other in a solution on the coarse grid.
+    fn is_crossing(&self, grid: Grid, solution: &OcpSolution) -> bool {
+        let model = self.ranking_model.as_ref().unwrap_or(&self.model);
+        passed_limits(self.scenario, &model.coordinates, solution, grid.step_s()).is_crossing()
+    }
+
+    fn stated_within_steps(&self) -> String {
         let limits = &self.stage_limits;
         let joints = limits.joints.keys().map(|joint| format!("the angle of joint {}", joint + 1));
         let clearances = Clearances::new(self.scenario);
@@ -129,9 +181,6 @@ impl Search<'_> {
             format!("the clearance of {between} (at {} {places} in every step)", parts - 1)
         });
         let stated: Vec<String> = joints.chain(distances).collect();
-        format!(
-            "limits that held at the nodes alone were stated within the steps too: {}",
-            stated.join(", ")
-        )
+        stated.join(", ")
     }
 }

@@ -1,7 +1,7 @@
 //! The solves that lead to a plan.
 //!
 //! 1. Several initial guesses are solved on a coarse grid, in the reduced form, and ranked by their
-//!    objective ([`Search::best_coarse_solution`]).
+//!    objective ([`Search::coarse_solutions`]).
 //! 2. The best is carried over finer meshes to the asked grid and form ([`Search::refined`]). Where
 //!    that fails, or nothing was ranked, the asked grid is solved from the constant guess.
 //! 3. Where the Lagrangian curves downwards at the solution, it is no minimum: the search leaves it
@@ -29,7 +29,6 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::between_nodes::passed_limits;
 use crate::formulation::{Coordinates, StageLimits};
 use batch::Batch;
 use model::Model;
@@ -50,6 +49,8 @@ pub(crate) struct Search<'a> {
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     /// An earlier plan to start from too.
     earlier: Option<&'a Trajectory>,
+    /// What ranking the initial guesses led to, the best first.
+    coarse: Vec<OcpSolution>,
     notes: Vec<String>,
     attempts: Vec<Attempt>,
     trace: Duration,
@@ -104,6 +105,7 @@ impl<'a> Search<'a> {
             threads,
             on_iteration,
             earlier,
+            coarse: Vec::new(),
             notes: Vec::new(),
             attempts: Vec::new(),
             trace: started.elapsed(),
@@ -114,11 +116,11 @@ impl<'a> Search<'a> {
     /// Makes the solves.
     pub(crate) fn run(mut self) -> Result<Found, OcpError> {
         let started = Instant::now();
-        let coarse = self.best_coarse_solution()?;
+        self.coarse = self.coarse_solutions()?;
         let guess = started.elapsed();
 
         let started = Instant::now();
-        let refined = match coarse {
+        let refined = match self.coarse.first().cloned() {
             Some(coarse) => self.refined(coarse)?,
             None => None,
         };
@@ -145,9 +147,9 @@ impl<'a> Search<'a> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The best solution on the coarse grid, in the reduced form; none if nothing is ranked or no
-    /// guess converged.
-    fn best_coarse_solution(&mut self) -> Result<Option<OcpSolution>, OcpError> {
+    /// The solutions on the coarse grid, in the reduced form, the best first; none if nothing is ranked
+    /// or no guess converged.
+    fn coarse_solutions(&mut self) -> Result<Vec<OcpSolution>, OcpError> {
         let grid = grids::coarse(self.scenario, &self.grid)?;
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let guesses = model.initial_guesses(self.scenario, grid.steps());
@@ -164,28 +166,16 @@ impl<'a> Search<'a> {
             starts.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
         }
         if starts.is_empty() {
-            return Ok(None);
+            return Ok(Vec::new());
         }
         let batch = Batch { model, grid, starts: &starts };
-        let solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        let mut best: Option<(bool, OcpSolution)> = None;
-        for mut solution in solutions {
+        let mut solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
+        for solution in &mut solutions {
             self.attempts.append(&mut solution.attempts);
-            if !solution.status.is_success() {
-                continue;
-            }
-            // Of the solves that are made again because things went through each other.
-            let crosses = !self.stage_limits.clearances.is_empty()
-                && passed_limits(self.scenario, &model.coordinates, &solution, grid.step_s())
-                    .is_crossing();
-            let is_better = best.as_ref().is_none_or(|(best_crosses, best)| {
-                (crosses, solution.objective) < (*best_crosses, best.objective)
-            });
-            if is_better {
-                best = Some((crosses, solution));
-            }
         }
-        Ok(best.map(|(_, solution)| solution))
+        solutions.retain(|solution| solution.status.is_success());
+        solutions.sort_by(|a, b| a.objective.total_cmp(&b.objective));
+        Ok(solutions)
     }
 
     /// The asked grid, solved from the state held at the start.
