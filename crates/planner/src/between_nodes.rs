@@ -1,10 +1,12 @@
 //! Where a motion passes a limit between its nodes: the planner's own look, so that it can mend it.
 
 mod approach;
+#[cfg(test)]
+mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use righting_ocp::OcpSolution;
+use righting_ocp::Samples;
 use righting_scenario::{JointLimits, Scenario};
 
 use crate::formulation::{Clearances, Coordinates};
@@ -75,11 +77,13 @@ impl Step<'_> {
     }
 }
 
-/// Which limits a solution on steps of this length passes between its nodes.
+/// Which limits a motion passes between its nodes: `states` are the states there, one row more than
+/// `controls`, and `duration` is the length of a step.
 pub(crate) fn passed_limits(
     scenario: &Scenario,
     coordinates: &Coordinates,
-    solution: &OcpSolution,
+    states: &Samples,
+    controls: &Samples,
     duration: f64,
 ) -> PassedLimits {
     let joint_limits = &scenario.system().joint_limits;
@@ -91,8 +95,7 @@ pub(crate) fn passed_limits(
         .max(LEAST_LACKING * size);
     let mut passed = PassedLimits::default();
     let mut approach = Approach::new(&clearances, lacking);
-    let states = solution.states.rows();
-    for ((x, next), u) in states.zip(solution.states.rows().skip(1)).zip(solution.controls.rows()) {
+    for ((x, next), u) in states.rows().zip(states.rows().skip(1)).zip(controls.rows()) {
         let step = Step {
             angles: coordinates.joint_angles(x),
             rates: coordinates.joint_rates(x),

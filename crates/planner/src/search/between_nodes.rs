@@ -59,7 +59,9 @@ impl Search<'_> {
     }
 
     fn passed_limits(&self, solution: &OcpSolution) -> PassedLimits {
-        passed_limits(self.scenario, &self.model.coordinates, solution, self.grid.step_s())
+        let OcpSolution { states, controls, .. } = solution;
+        let coordinates = &self.model.coordinates;
+        passed_limits(self.scenario, coordinates, states, controls, self.grid.step_s())
     }
 
     /// Adds limits; false if that changes nothing. Whoever is passed again is stated at more places.
@@ -168,7 +170,9 @@ impl Search<'_> {
     /// Whether things go through each other in a solution on the coarse grid.
     fn is_crossing(&self, grid: Grid, solution: &OcpSolution) -> bool {
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
-        passed_limits(self.scenario, &model.coordinates, solution, grid.step_s()).is_crossing()
+        let OcpSolution { states, controls, .. } = solution;
+        let coordinates = &model.coordinates;
+        passed_limits(self.scenario, coordinates, states, controls, grid.step_s()).is_crossing()
     }
 
     fn stated_within_steps(&self) -> String {
