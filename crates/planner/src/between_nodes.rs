@@ -12,13 +12,13 @@ use righting_scenario::{JointLimits, Scenario};
 use crate::formulation::{Clearances, Coordinates};
 use approach::Approach;
 
-/// How far an angle may be past its limit, rad: half of what the verifier lets pass.
-const ANGLE_RAD: f64 = 5e-4;
+/// How far an angle may be past its limit, rad: nine tenths of what the verifier lets pass, as below.
+const ANGLE_RAD: f64 = 9e-4;
 /// How much of the clearance a distance may lack, …
-const CLEARANCE_SHARE: f64 = 0.05;
+const CLEARANCE_SHARE: f64 = 0.09;
 /// … how much of the system's size at most, and how little is nothing.
-const MOST_LACKING: f64 = 5e-4;
-const LEAST_LACKING: f64 = 5e-7;
+const MOST_LACKING: f64 = 9e-4;
+const LEAST_LACKING: f64 = 9e-7;
 
 /// The limits that are passed between nodes.
 #[derive(Clone, Debug, Default)]

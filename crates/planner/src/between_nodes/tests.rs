@@ -83,11 +83,11 @@ fn links_that_pass_through_each_other_between_nodes_are_found() {
 }
 
 #[test]
-fn half_of_what_the_verifier_lets_pass_may_be_lacking() {
+fn nearly_what_the_verifier_lets_pass_may_be_lacking() {
     let passes = |gap_m: f64| !passed(&pendulum(3.0_f64.sqrt() - gap_m), &swing()).is_empty();
     assert!(!passes(0.02));
-    assert!(!passes(0.0096));
-    assert!(passes(0.0094));
+    assert!(!passes(0.0092));
+    assert!(passes(0.009));
     let grazing = passed(&pendulum(3.0_f64.sqrt() - 0.008), &swing());
     assert!(!grazing.is_crossing() && grazing.clearances.len() == 1, "{grazing:?}");
 }
@@ -104,6 +104,6 @@ fn a_joint_that_turns_back_between_nodes_is_followed_to_the_turn() {
         passed(&scenario, &[0.1, -0.2, 0.1].map(|u| vec![0.0, u, 0.0, 0.0])).joints
     };
     assert!(to_angle(0.076).is_empty());
-    assert!(to_angle(0.0746).is_empty());
-    assert_eq!(to_angle(0.0744).into_iter().collect::<Vec<_>>(), [1]);
+    assert!(to_angle(0.0742).is_empty());
+    assert_eq!(to_angle(0.074).into_iter().collect::<Vec<_>>(), [1]);
 }
