@@ -126,6 +126,30 @@ fn no_link_passes_through_another_between_nodes() {
             angle_deg: 47.0,
             horizon: Horizon { duration_s: 18.0, steps: 76.0 },
         },
+        ThinLinks {
+            lengths_m: [1.14, 0.91, 0.65, 0.434],
+            twists_deg: [0.0, 0.0, 90.0, 0.0],
+            joint_angles_deg: [-54.1, 73.0, 7.0, 5.7],
+            axis: [0.208, -0.213, -0.429],
+            angle_deg: 23.9,
+            horizon: Horizon { duration_s: 26.4, steps: 26.0 },
+        },
+        ThinLinks {
+            lengths_m: [0.949, 1.051, 1.335, 0.417],
+            twists_deg: [90.0, 45.0, 90.0, -90.0],
+            joint_angles_deg: [-67.5, 9.7, -117.0, -36.5],
+            axis: [0.379, -0.386, 0.366],
+            angle_deg: 59.7,
+            horizon: Horizon { duration_s: 27.0, steps: 21.0 },
+        },
+        ThinLinks {
+            lengths_m: [0.795, 1.096, 0.591, 0.684],
+            twists_deg: [-90.0, 0.0, 45.0, 45.0],
+            joint_angles_deg: [64.8, 89.2, -110.6, 88.1],
+            axis: [0.478, 0.371, -0.047],
+            angle_deg: 51.1,
+            horizon: Horizon { duration_s: 21.9, steps: 24.0 },
+        },
     ];
     let mut mended = 0;
     for maneuver in maneuvers {
@@ -134,5 +158,5 @@ fn no_link_passes_through_another_between_nodes() {
         assert!(planned.solution.terminal.attitude_error < 1e-3);
         mended += usize::from(is_mended(&planned));
     }
-    assert!(mended >= 1, "a case that needs it is needed");
+    assert!(mended >= 2, "{mended} of 5");
 }

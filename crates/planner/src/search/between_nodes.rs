@@ -31,29 +31,32 @@ impl Search<'_> {
         if self.scenario.solver().guess == Guess::Named(NamedGuess::Constant) {
             return Ok((solution, is_minimum));
         }
+        let mut passed = self.passed_limits(&solution);
         for _ in 0..ROUNDS {
-            if !solution.status.is_success() || self.is_interrupted() {
-                break;
-            }
-            let passed = self.passed_limits(&solution);
-            if passed.is_empty() || !self.state_within_steps(&passed) {
+            let is_done = passed.is_empty() || !solution.status.is_success();
+            if is_done || self.is_interrupted() || !self.state_within_steps(&passed) {
                 break;
             }
             self.compile_again()?;
-            let Some(again) = self.solved_again(&solution, passed.is_crossing())? else {
-                self.notes.push(format!(
-                    "passes limits between its nodes, and no plan was found that keeps them: {}",
-                    self.stated_within_steps()
-                ));
-                return Ok((solution, is_minimum));
-            };
-            (solution, is_minimum) = self.leave_saddle(again)?;
+            match self.solved_again(&solution, passed.is_crossing())? {
+                Some(again) => (solution, is_minimum) = self.leave_saddle(again)?,
+                // The same limits are stated at more places.
+                None => continue,
+            }
+            passed = self.passed_limits(&solution);
         }
         if !self.stage_limits.is_empty() {
-            self.notes.push(format!(
-                "limits that the nodes alone did not keep are stated within the steps too: {}",
-                self.stated_within_steps()
-            ));
+            let stated = self.stated_within_steps();
+            self.notes.push(match passed.is_empty() {
+                true => format!(
+                    "limits that the nodes alone did not keep are stated within the steps too: \
+                     {stated}"
+                ),
+                false => format!(
+                    "passes limits between its nodes, and no plan was found that keeps them: \
+                     {stated}"
+                ),
+            });
         }
         Ok((solution, is_minimum))
     }
