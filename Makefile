@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases random bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -21,6 +21,18 @@ test-slurm: setup
 # Errors planted in the planner's model, each caught by the verifier's: 11 minutes of one core.
 test-planted: setup
 	scripts/test-planted-errors.sh
+
+# Public arms and bug reports, each with what is right: under a minute.
+cases: setup
+	cargo build --release --locked
+	scripts/cases.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# 300 maneuvers of random arms, outcomes by cause and times, then every verified plan against Pinocchio, which
+# gets a virtual environment of its own.
+random: setup
+	cargo build --release --locked
+	scripts/random_maneuvers.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+	scripts/pinocchio.sh out/random
 
 # The same on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:

@@ -60,7 +60,7 @@ def judged(options: argparse.Namespace, name: str, right: dict | None) -> tuple[
         solution = json.loads(done.stdout)
     except json.JSONDecodeError:
         solution = {}
-    if "terminal" in solution:
+    if (out / "trajectory.csv").exists() and "terminal" in solution:
         said += "\n".join(solution.get("notes", []))
         with open(out / "trajectory.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))[:-1]

@@ -13,6 +13,7 @@ import collections
 import json
 import math
 import random
+import re
 import statistics
 import subprocess
 import time
@@ -224,7 +225,9 @@ def cause(record: dict) -> str:
     if record.get("failed"):
         outcome += ": " + ", ".join(record["failed"])
     elif outcome != "verified":
-        outcome += ": " + (record["says"][0][:110] if record.get("says") else "")
+        said = record["says"][0] if record.get("says") else ""
+        # Numbers and names of files are the maneuver's own.
+        outcome += ": " + re.sub(r"-?[0-9][0-9.e+-]*", "#", re.sub(r"\S+\.json: ", "", said))[:110]
     return outcome
 
 

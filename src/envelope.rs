@@ -10,7 +10,7 @@ use righting_analysis::{Envelope, Envelopes, envelopes};
 use righting_report::{EnvelopeOutlines, envelope_svg};
 use righting_scenario::WheelArray;
 use righting_scenario::json::FileKind;
-use righting_scenario::system_description::read_system_or_scenario;
+use righting_scenario::system_or_scenario::read_system_or_scenario;
 use righting_scenario::wheels::Wheel;
 use serde::Serialize;
 

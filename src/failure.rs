@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use righting_analysis::Impossible;
 use righting_ipopt::LoadError;
 use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
@@ -95,7 +96,10 @@ pub enum Failure {
     },
     /// The optimizer had nothing to start from.
     #[error("no acceptable plan: {0}")]
-    NotPlanned(#[from] PlanError),
+    NotPlanned(#[source] PlanError),
+    /// No motion of the arm makes the maneuver.
+    #[error("impossible: {0}")]
+    Impossible(#[source] Impossible),
     /// A search for what is possible could not begin or go on.
     #[error("nothing to search: {0}")]
     NotSearched(#[source] ReachError),
@@ -118,10 +122,19 @@ pub enum Failure {
     Interrupted,
 }
 
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::Impossible(reason) => Self::Impossible(reason),
+            error => Self::NotPlanned(error),
+        }
+    }
+}
+
 impl From<ReachError> for Failure {
     fn from(error: ReachError) -> Self {
         match error {
-            ReachError::Plan(error) => Self::NotPlanned(error),
+            ReachError::Plan(error) => error.into(),
             ReachError::Scenario(error) => Self::Input(error),
             error => Self::NotSearched(error),
         }
@@ -152,7 +165,10 @@ impl Failure {
             | Self::NotReady { .. }
             | Self::NoOptimizer(_)
             | Self::NotSearched(_) => 2,
-            Self::NoPlan { .. } | Self::NotPlanned(_) | Self::OutOfReach { .. } => 3,
+            Self::NoPlan { .. }
+            | Self::NotPlanned(_)
+            | Self::Impossible(_)
+            | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
             Self::Interrupted => 130,
         }

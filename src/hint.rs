@@ -46,13 +46,14 @@ impl Failure {
             Self::NoPlan { status: Status::IterationLimit } => {
                 Some("raise solver.max_iterations, or try solver.guess \"auto\"")
             }
-            Self::NoPlan { .. } => Some("another solver.guess or a longer duration may help"),
+            Self::NoPlan { .. } => Some("the notes say what stood in the way, and what was tried"),
+            Self::Impossible(_) => Some("`righting explain` says what this arm can do"),
             Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
             Self::OutOfReach { .. } => Some(
                 "wider limits, a smaller weights.control or more --starts may make it possible",
             ),
             Self::Unproven { falls_short: true, .. } => {
-                Some("it misses its target: a longer duration or a smaller angle may help")
+                Some("it misses its target: the notes say why, and what was tried")
             }
             Self::Unproven { .. } => Some("do not use this plan"),
             _ => None,

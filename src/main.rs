@@ -8,6 +8,7 @@ mod build;
 mod completions;
 mod doctor;
 mod envelope;
+mod explain;
 mod export;
 mod failure;
 mod figures;
@@ -51,7 +52,7 @@ const NAME: &str = "righting";
 const EXIT_CODES: [(u8, &str); 5] = [
     (0, "done and verified"),
     (2, "bad input or usage"),
-    (3, "no acceptable plan"),
+    (3, "no acceptable plan, or none is possible"),
     (4, "a plan was found but failed its verification"),
     (130, "interrupted"),
 ];
@@ -68,6 +69,7 @@ enum Command {
     Verify(verify::Arguments),
     Reach(reach::Arguments),
     Report(report::Arguments),
+    Explain(explain::Arguments),
     Envelope(envelope::Arguments),
     Power(power::Arguments),
     Sweep(sweep::Arguments),
@@ -96,6 +98,7 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Reach(arguments) => reach::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
@@ -125,6 +128,7 @@ impl Command {
             Self::Verify(arguments) => arguments.json,
             Self::Reach(arguments) => arguments.json,
             Self::Report(arguments) => arguments.json,
+            Self::Explain(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),

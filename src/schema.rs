@@ -6,7 +6,7 @@ use righting_scenario::schema::{scenario_schema, system_schema, wheels_schema};
 use righting_sweep::sweep_schema;
 
 use crate::failure::Failure;
-use crate::{output, reach};
+use crate::{explain, output, reach};
 
 /// Print the JSON Schema of a file, input or result.
 #[derive(Args)]
@@ -30,6 +30,8 @@ enum File {
     Solution,
     /// The outcome of a search for what is possible, reach.json.
     Reach,
+    /// What an arm can do, explain.json.
+    Explain,
 }
 
 /// Prints the schema.
@@ -41,5 +43,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         File::Sweep => sweep_schema(),
         File::Solution => solution_schema(),
         File::Reach => reach::schema(),
+        File::Explain => explain::schema(),
     })
 }

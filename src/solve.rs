@@ -95,8 +95,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         WarmStart::Plan { trajectory, .. } => planner = planner.warm_start(trajectory),
         WarmStart::Library(library) => planner = planner.library(library),
     }
-    let Planned { mut solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;
+    let planned = planner.plan(&scenario, &mut on_iteration);
     drop(planner);
+    if planned.is_err() {
+        folder.remove_earlier_plan()?;
+    }
+    let Planned { mut solution, trajectory } = planned?;
     warm_start.report(&mut solution);
     solution.timing_s.load = load.as_secs_f64();
     let shown = Shown { figures: arguments.figures, writer: &writer, page: !arguments.no_report };

@@ -44,7 +44,7 @@ fn the_message_names_the_field_and_what_is_expected() {
         (
             "/horizon/duration_s",
             json!(-1),
-            "horizon.duration_s: found -1, expected a number above 0 and up to 1000000",
+            "horizon.duration_s: found -1, expected a number above 0 and up to 1e8",
         ),
         (
             "/horizon/duration_s",
@@ -75,7 +75,7 @@ fn the_message_names_the_field_and_what_is_expected() {
         (
             "/system/base/mass_kg",
             json!(-300),
-            "system.base.mass_kg: found -300, expected a number above 0 and up to 1e9",
+            "system.base.mass_kg: found -300, expected a number above 0 and up to 1e15",
         ),
         (
             "/system/links",
@@ -90,7 +90,7 @@ fn the_message_names_the_field_and_what_is_expected() {
         (
             "/system/links/1/angle_max_deg",
             json!(-91),
-            "system.links[1].angle_min_deg: found -90, expected less than angle_max_deg, -91",
+            "system.links[1].angle_min_deg: found -90, expected at most angle_max_deg, -91",
         ),
         (
             "/initial/joint_angles_deg",

@@ -83,6 +83,7 @@ fn every_figure_has_its_png_where_asked() {
     for (arguments, figure) in [
         (&["figures", "out", "--out", "drawn", "--png"][..], "sparsity.svg"),
         (&["power", "out", "--out", "costs", "--png"], "power.svg"),
+        (&["explain", "scenario.json", "--out", "told", "--png"], "explain.svg"),
         (
             &["envelope", "scenario.json", "--samples", "20", "--out", "seen", "--png"],
             "envelope.svg",

@@ -9,6 +9,7 @@ mod completions;
 mod crates;
 mod documents;
 mod envelope;
+mod explain;
 mod export;
 mod figures;
 mod full_disk;

@@ -5,10 +5,11 @@ use std::process::{Command, Stdio};
 
 use crate::program::{files_in, folder_with, righting};
 
-const PAGES: [&str; 19] = [
+const PAGES: [&str; 20] = [
     "righting-completions.1",
     "righting-doctor.1",
     "righting-envelope.1",
+    "righting-explain.1",
     "righting-export.1",
     "righting-figures.1",
     "righting-manpages.1",

@@ -46,6 +46,26 @@ fn a_slew_is_planned_proven_written_and_summed_up() {
 }
 
 #[test]
+fn what_was_accepted_with_an_assumption_is_said_first() {
+    let mut scenario = small_slew();
+    scenario["initial"]["attitude"] = json!([0.6, 0.8001, 0.0, 0.0]);
+    scenario["system"]["links"][1]["angle_max_deg"] = json!(29.9996);
+    let folder = folder_with(&scenario);
+    let run = righting(folder.path(), &["solve", "scenario.json", "--out", "out", "--json"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let solution = run.json();
+    let notes = [
+        "system.links[1].angle_max_deg: 30 instead of 29.9996: joint 2 starts there, past its limit by \
+         rounding only",
+        "initial.attitude: its norm is 1.00008: taken as a unit quaternion, for rounding",
+    ];
+    assert_eq!(solution["notes"], json!(notes));
+    // The files alone pass by the same numbers.
+    assert_eq!(solution["scenario"]["system"]["links"][1]["angle_max_deg"], 30.0);
+    assert_eq!(righting(folder.path(), &["verify", "out"]).code, 0);
+}
+
+#[test]
 fn a_detumble_says_how_much_it_took_out_and_how_much_it_could() {
     let folder = folder_with(&small_detumble());
     let run = righting(folder.path(), &["solve", "scenario.json", "--out", "out", "--json"]);

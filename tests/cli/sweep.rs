@@ -145,6 +145,7 @@ fn cases_that_fail_are_results_grouped_by_cause() {
 fn a_plan_flown_open_loop_ends_elsewhere_when_the_masses_differ() {
     let mut flown = small_sweep(2);
     flown["evaluation"] = json!("open_loop");
+    flown["scenario"]["weights"] = json!({ "control": 0.001 });
     flown["vary"] = json!([{ "field": "system.links[1].mass_kg", "name": "factor",
                              "relative": true, "values": [0.8, 1, 1.25] }]);
     let folder = folder_with_sweep(&flown);

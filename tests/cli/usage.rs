@@ -34,6 +34,7 @@ fn wrong_usage_exits_with_2_and_says_what_is_right() {
         (&["schema", "sytem"], "system"),
         // What would be ignored is refused.
         (&["reach", "a.json", "--png"], "--out <DIR>"),
+        (&["explain", "a.json", "--png"], "--out <DIR>"),
         (&["solve", "a.json", "--out", "b", "--figures", "none", "--png"], "no figure to write"),
         (&["export", "a", "--format", "npz", "--frame", "ICRF"], "an archive holds the plan alone"),
     ] {

@@ -1,6 +1,6 @@
 //! How far a detumble can go.
 
-use righting_multibody::System;
+use nalgebra::Matrix3;
 use righting_scenario::collision::CollisionModel;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
@@ -22,23 +22,64 @@ const FINEST: f64 = 1e-7;
 /// ```
 ///
 /// the maximum over the postures within the joints' limits that keep their clearances. It is found
-/// from evenly spread postures by climbing from the best of them, the same way every time. Whether
-/// the arm can get there, and in the time there is, does not count: a bound may be out of reach.
+/// from evenly spread postures and the start by climbing from the best of them, the same way every time.
+/// Whether the arm can get there, and in the time there is, does not count: a bound may be out of reach.
 pub fn rate_bound_rad_s(scenario: &Scenario) -> f64 {
-    let momentum = scenario.initial().angular_momentum_n_m_s.norm();
-    momentum / largest_inertia(scenario.system(), scenario.collision())
+    scenario.initial().angular_momentum_n_m_s.norm() / largest_inertia_kg_m2(scenario)
 }
 
-/// max_q λ_max(Ĩ(q)), kg m².
-fn largest_inertia(system: &SystemDescription, collision: &CollisionModel) -> f64 {
-    let joints = system.joint_count();
-    let inertia = |unit: &[f64]| principal_inertia(&system.model, &system.joint_angles_at(unit));
-    let is_clear = |unit: &[f64]| {
-        let posture = system.model.kinematics(&system.joint_angles_at(unit));
-        collision.clearances(&posture).all(|clearance| clearance.distance_m >= clearance.least_m)
+/// max_q λ_max(Ĩ(q)) of [`rate_bound_rad_s`], kg m².
+pub fn largest_inertia_kg_m2(scenario: &Scenario) -> f64 {
+    let start = &scenario.initial().joint_angles_rad;
+    highest(scenario.system(), scenario.collision(), Some(start), largest_moment)
+}
+
+/// The smallest and the largest principal inertia of the whole system with its joints held, over the
+/// postures within the joints' limits that keep their clearances, kg m².
+///
+/// A base that spins about the axis of the one at the same momentum as about that of the other does so
+/// faster by their ratio: no detumble divides a rate by more.
+pub fn inertia_range_kg_m2(system: &SystemDescription, collision: &CollisionModel) -> [f64; 2] {
+    let smallest = |inertia: &Matrix3<f64>| -inertia.symmetric_eigenvalues().min();
+    [-highest(system, collision, None, smallest), highest(system, collision, None, largest_moment)]
+}
+
+/// Whether some posture looked at leaves less than `rate_rad_s` with the arm at rest.
+pub(crate) fn some_posture_is_slower(scenario: &Scenario, rate_rad_s: f64) -> bool {
+    let system = scenario.system();
+    let needed = scenario.initial().angular_momentum_n_m_s.norm() / rate_rad_s;
+    let is_slower = |unit: &Vec<f64>| {
+        let posture = system.joint_angles_at(unit);
+        largest_moment(&system.model.locked_inertia(&posture)) > needed
+            && is_clear(system, scenario.collision(), &posture)
     };
+    Halton::new(system.joint_count()).take(SAMPLES).any(|unit| is_slower(&unit))
+}
+
+fn largest_moment(inertia: &Matrix3<f64>) -> f64 {
+    inertia.symmetric_eigenvalues().max()
+}
+
+fn is_clear(system: &SystemDescription, collision: &CollisionModel, posture: &[f64]) -> bool {
+    let posture = system.model.kinematics(posture);
+    collision.clearances(&posture).all(|clearance| clearance.distance_m >= clearance.least_m)
+}
+
+/// The highest that a measure of Ĩ(q) gets over the postures that keep their clearances; where none is
+/// found that does, over all.
+fn highest(
+    system: &SystemDescription,
+    collision: &CollisionModel,
+    start_rad: Option<&[f64]>,
+    measure: impl Fn(&Matrix3<f64>) -> f64,
+) -> f64 {
+    let joints = system.joint_count();
+    let height =
+        |unit: &[f64]| measure(&system.model.locked_inertia(&system.joint_angles_at(unit)));
+    let is_clear = |unit: &[f64]| is_clear(system, collision, &system.joint_angles_at(unit));
+    let start = start_rad.map(|angles| unit_of(system, angles));
     let mut samples: Vec<(f64, Vec<f64>)> =
-        Halton::new(joints).take(SAMPLES).map(|unit| (inertia(&unit), unit)).collect();
+        Halton::new(joints).take(SAMPLES).chain(start).map(|unit| (height(&unit), unit)).collect();
     samples.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let highest = |tops: Vec<(f64, Vec<f64>)>| {
         let highest = tops.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
@@ -46,19 +87,36 @@ fn largest_inertia(system: &SystemDescription, collision: &CollisionModel) -> f6
     };
     let starts = samples.iter().take(CLIMBS).cloned();
     let axes = directions(joints, false);
-    let (largest, unit) = highest(starts.map(|start| climb(start, &axes, inertia)).collect());
+    let (top, unit) = highest(starts.map(|start| climb(start, &axes, height)).collect());
     if is_clear(&unit) {
-        return largest;
+        return top;
     }
     let starts: Vec<_> =
         samples.into_iter().filter(|(_, unit)| is_clear(unit)).take(CLIMBS).collect();
     if starts.is_empty() {
-        return largest;
+        return top;
     }
     // Along the edge of what is clear, a step along one axis leads into a collision or downhill.
     let diagonals = directions(joints, true);
-    let clear = |unit: &[f64]| if is_clear(unit) { inertia(unit) } else { f64::NEG_INFINITY };
+    let clear = |unit: &[f64]| if is_clear(unit) { height(unit) } else { f64::NEG_INFINITY };
     highest(starts.into_iter().map(|start| climb(start, &diagonals, clear)).collect()).0
+}
+
+/// The point of the unit cube at which the joints have these angles, whole turns of a joint without limits
+/// left out.
+fn unit_of(system: &SystemDescription, angles_rad: &[f64]) -> Vec<f64> {
+    let ranges = system.joint_limits.iter().zip(angles_rad);
+    ranges
+        .map(|(limits, angle)| {
+            let (low, high) = limits.angle_range_rad();
+            let is_limited = limits.angle_min_rad.is_finite() && limits.angle_max_rad.is_finite();
+            match (high > low, is_limited) {
+                (false, _) => 0.0,
+                (true, true) => ((angle - low) / (high - low)).clamp(0.0, 1.0),
+                (true, false) => ((angle - low) / (high - low)).rem_euclid(1.0),
+            }
+        })
+        .collect()
 }
 
 /// Both ways along every axis, and along the diagonals of every two if asked for.
@@ -100,10 +158,6 @@ fn climb(
         }
     }
     (highest, unit)
-}
-
-fn principal_inertia(model: &System, joint_angles_rad: &[f64]) -> f64 {
-    model.locked_inertia(joint_angles_rad).symmetric_eigenvalues().max()
 }
 
 #[cfg(test)]

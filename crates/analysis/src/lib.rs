@@ -1,7 +1,10 @@
 //! What an arm can do, before and after a plan.
 //!
+//! - [`abilities`]: about which axes it turns the base, how fast, and how much a detumble gains;
 //! - [`envelope`]: all momenta and torques that the arm can give, beside reaction wheels;
 //! - [`detumble`]: the least angular rate that momentum leaves with the arm at rest;
+//! - [`holonomy`]: which rotations of the base the arm can make, and how fast;
+//! - [`impossible`]: maneuvers that no motion of the arm makes;
 //! - [`power`]: torques of a plan's joints, and the power they draw;
 //! - [`histories`]: momentum and clearances along a plan.
 //!
@@ -18,14 +21,19 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod abilities;
 pub mod detumble;
 pub mod envelope;
 pub mod histories;
+pub mod holonomy;
 pub mod hull;
+pub mod impossible;
 pub mod power;
 pub mod zonotope;
 
+pub use abilities::Abilities;
 pub use envelope::{Envelope, Envelopes, envelopes};
 pub use histories::Histories;
+pub use impossible::Impossible;
 pub use power::PowerProfile;
 pub use zonotope::Zonotope;

@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 use righting_analysis::envelope::sampled_maxima;
 use righting_analysis::envelopes;
-use righting_scenario::system_description::read_system_or_scenario;
+use righting_scenario::system_or_scenario::read_system_or_scenario;
 use righting_scenario::{SystemDescription, WheelArray};
 
 fn system(name: &str) -> SystemDescription {
@@ -45,6 +45,22 @@ fn samples_of_the_paper_s_arm_average_to_its_figures() {
     let mean = |i: usize| maxima.iter().map(|pair| pair[i]).sum::<f64>() / 10.0;
     close(mean(0), 2.71, 0.04);
     close(mean(1), 2.21, 0.07);
+}
+
+/// Two links one after the other, and a second joint that is locked: one link of twice the length.
+#[test]
+fn a_locked_joint_adds_nothing() {
+    let links = |second: serde_json::Value| {
+        parsed(serde_json::json!([link(5.0, 0.5, None), second]), 300.0)
+    };
+    let locked = links(link(5.0, 0.5, Some(0.0)));
+    assert!(locked.joint_limits[1].is_locked());
+    let one = parsed(serde_json::json!([link(10.0, 1.0, None)]), 300.0);
+    let [found, expected] =
+        [&locked, &one].map(|system| envelopes(system, 100, 1, &WheelArray::pyramid()));
+    close(found.momentum.true_max, expected.momentum.true_max, 1e-9);
+    close(found.torque.true_max, expected.torque.true_max, 1e-9);
+    close(sampled_maxima(&locked, 2000, 1)[0], expected.momentum.true_max, 0.01);
 }
 
 #[test]

@@ -9,12 +9,12 @@
 //!
 //! A standard row i gives offset (a, 0, d) and body i in K(i); its frame i is K(i) carried through
 //! offset and twist. A modified row i gives offset (a, −d sin α, d cos α), all of it between K(i−1)
-//! and K(i), and its frame i is K(i).
+//! and K(i), and its frame i is K(i); its mass is body i−1 or body i, as its inertial frame says.
 
 use crate::coupling::{Barycentric, Coupling, RootCoupling};
 use crate::error::{ModelError, Part};
 use crate::inertia::{MassMoments, rod_inertia};
-use crate::parts::{Base, DhConvention, Link, Mount, Payload};
+use crate::parts::{Base, DhConvention, InertialFrame, Link, Mount, Payload};
 use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 
@@ -91,21 +91,35 @@ impl Chain {
             }
             DhConvention::Modified => {
                 let fixed = &rows[0];
-                let center = mount.position_m + mount_rotation * fixed.center;
-                chain.link_centers.push(LinkCenter::OnBase(center));
-                let body = fixed.body.placed(&mount_rotation, &mount.position_m);
-                chain.base = chain.base.joined(&body);
                 chain.root_rotation = (mount_rotation * fixed.twist.about_x()).map(snapped);
                 chain.root_position = mount.position_m + mount_rotation * fixed.offset;
-                for (k, angle) in angles.enumerate() {
-                    let joint = match rows.get(k + 1) {
-                        Some(row) => {
-                            chain.link_centers.push(LinkCenter::OnJoint(k, row.center));
-                            Joint::new(angle, row.body.clone(), row.offset, row.twist)
-                        }
-                        None => Joint::new(angle, held.clone(), Vector3::zeros(), Turn::NONE),
+                let mut bodies = vec![MassMoments::zero(); rows.len()];
+                for (k, row) in rows.iter().enumerate() {
+                    let joint = match row.inertial_frame {
+                        InertialFrame::Own => Some(k),
+                        InertialFrame::Previous => k.checked_sub(1),
                     };
-                    chain.joints.push(joint);
+                    match joint {
+                        Some(joint) => {
+                            bodies[joint] = bodies[joint].joined(&row.body);
+                            chain.link_centers.push(LinkCenter::OnJoint(joint, row.center));
+                        }
+                        None => {
+                            let body = row.body.placed(&mount_rotation, &mount.position_m);
+                            chain.base = chain.base.joined(&body);
+                            let center = mount.position_m + mount_rotation * row.center;
+                            chain.link_centers.push(LinkCenter::OnBase(center));
+                        }
+                    }
+                }
+                if let Some(last) = bodies.last_mut() {
+                    *last = last.joined(&held);
+                }
+                for (k, (angle, body)) in angles.zip(bodies).enumerate() {
+                    let (offset, twist) = rows
+                        .get(k + 1)
+                        .map_or((Vector3::zeros(), Turn::NONE), |row| (row.offset, row.twist));
+                    chain.joints.push(Joint::new(angle, body, offset, twist));
                 }
             }
         }
@@ -148,11 +162,14 @@ impl Joint {
     }
 }
 
-/// What one row of parameters says, in K of the joint that moves the row's link.
+/// What one row of parameters says.
 struct Row {
-    body: MassMoments,
+    /// The segment, in K of the joint that moves it.
     offset: Vector3<f64>,
     twist: Turn,
+    inertial_frame: InertialFrame,
+    /// The mass, in K of the joint that moves it.
+    body: MassMoments,
     center: Vector3<f64>,
 }
 
@@ -160,8 +177,9 @@ impl Row {
     fn new(link: &Link, convention: DhConvention) -> Self {
         let twist = Turn::new(link.alpha_rad);
         let (sin, cos) = twist.sin_cos();
-        // The link's own frame in the one used here: a standard link's is its outboard frame,
-        // beyond offset and twist.
+        let inertial_frame = link.inertial_frame.unwrap_or(convention.inertial_frame());
+        // The frame that the mass is in, seen from the K that it moves with: a standard link's is its
+        // outboard frame, beyond offset and twist; a modified row's are the frames K themselves.
         let (offset, own_rotation, own_position) = match convention {
             DhConvention::Standard => {
                 let offset = Vector3::new(link.a_m, 0.0, link.d_m);
@@ -172,9 +190,13 @@ impl Row {
                 (offset, Matrix3::identity(), Vector3::zeros())
             }
         };
-        let center = link
-            .center_of_mass_m
-            .map_or(offset / 2.0, |center| own_position + own_rotation * center);
+        let middle = match inertial_frame == convention.inertial_frame() {
+            true => offset / 2.0,
+            // Seen from here the segment moves: only a link without mass has no center of its own.
+            false => Vector3::zeros(),
+        };
+        let center =
+            link.center_of_mass_m.map_or(middle, |center| own_position + own_rotation * center);
         let body = if link.center_of_mass_m.is_none() && link.inertia_kg_m2.is_none() {
             MassMoments::of_rod(link.mass_kg, offset)
         } else {
@@ -184,7 +206,7 @@ impl Row {
             );
             MassMoments::of_body(link.mass_kg, center, &inertia)
         };
-        Self { body, offset, twist, center }
+        Self { offset, twist, inertial_frame, body, center }
     }
 }
 

@@ -52,10 +52,15 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// Squared distance to another segment, m².
+    pub fn squared_distance_to_segment(&self, other: &Self) -> T {
+        squared(&self.shortest_from_segment(other))
+    }
+
+    /// From the place of another segment that is nearest to this one to that place of this one, m.
     ///
     /// Finds the closest points of the two lines, then holds each point within its segment in turn
     /// (Ericson, *Real-Time Collision Detection*, section 5.1.9).
-    pub fn squared_distance_to_segment(&self, other: &Self) -> T {
+    pub fn shortest_from_segment(&self, other: &Self) -> Vector3<T> {
         let apart = difference(&self.start, &other.start);
         let (a, e) = (self.length_squared, other.length_squared);
         let b = dot(&self.direction, &other.direction);
@@ -70,9 +75,7 @@ impl<T: Scalar> Segment<T> {
         let t = clamped_ratio(b * unit_clamped(on_line) + f, e);
         // Where t was not held back this gives the same point again.
         let s = clamped_ratio(b * t - c, a);
-        let between =
-            Vector3::from_fn(|i, _| apart[i] + self.direction[i] * s - other.direction[i] * t);
-        squared(&between)
+        Vector3::from_fn(|i, _| apart[i] + self.direction[i] * s - other.direction[i] * t)
     }
 
     /// Distance to another segment, m. Its derivative does not exist where it is zero.

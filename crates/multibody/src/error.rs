@@ -71,6 +71,26 @@ pub enum ModelError {
         /// Whose inertia.
         part: Part,
     },
+    /// A row of standard parameters whose mass moves with the frame before.
+    #[error(
+        "{part}: inertial_frame: found the previous frame, expected the link's own: with standard \
+         parameters link i moves with joint i"
+    )]
+    PreviousFrame {
+        /// Whose mass.
+        part: Part,
+    },
+    /// A row of modified parameters with its mass in its own frame, which does not say where.
+    #[error(
+        "{part}: {quantity}: missing, expected one in the link's own frame, where no segment gives \
+         a default"
+    )]
+    MissingInertial {
+        /// Whose mass.
+        part: Part,
+        /// Name of the field.
+        quantity: &'static str,
+    },
     /// An inertia matrix that differs from its transpose.
     #[error(
         "{part}: inertia_kg_m2[{row}][{column}]: found {upper}, expected {lower}, the entry \
@@ -90,29 +110,30 @@ pub enum ModelError {
     },
     /// An inertia matrix with a principal moment that is too small.
     #[error(
-        "{part}: smallest principal moment of inertia_kg_m2: found {smallest_kg_m2}, expected {}",
+        "{part}: smallest principal moment of inertia_kg_m2: found {}, expected {}",
+        .moments_kg_m2[0],
         if *.zero_allowed { "zero or more" } else { "more than zero" }
     )]
     NotPositive {
         /// Whose inertia.
         part: Part,
-        /// The smallest eigenvalue.
-        smallest_kg_m2: f64,
+        /// The principal moments, smallest first.
+        moments_kg_m2: [f64; 3],
         /// True where a moment of zero is allowed (a thin rod has one).
         zero_allowed: bool,
     },
     /// Principal moments that no distribution of mass has: one exceeds the sum of the others.
     #[error(
-        "{part}: largest principal moment of inertia_kg_m2: found {largest_kg_m2}, expected at \
-         most the sum of the other two, {others_kg_m2}"
+        "{part}: largest principal moment of inertia_kg_m2: found {}, expected at most the sum of \
+         the other two, {}",
+        .moments_kg_m2[2],
+        .moments_kg_m2[0] + .moments_kg_m2[1]
     )]
     TriangleInequality {
         /// Whose inertia.
         part: Part,
-        /// The largest eigenvalue.
-        largest_kg_m2: f64,
-        /// The sum of the other two.
-        others_kg_m2: f64,
+        /// The principal moments, smallest first.
+        moments_kg_m2: [f64; 3],
     },
     /// The mount's matrix is not a rotation.
     #[error("mount: the rotation matrix is off an orthonormal right-handed one by {deviation}")]

@@ -32,18 +32,18 @@ pub(crate) fn check(
     }
     let mut moments = ((inertia + inertia.transpose()) * 0.5).symmetric_eigenvalues();
     moments.as_mut_slice().sort_by(f64::total_cmp);
-    let [smallest_kg_m2, middle, largest_kg_m2] = moments.data.0[0];
-    if !(largest_kg_m2.is_finite() && (smallest_kg_m2 + middle).is_finite()) {
+    let moments_kg_m2 = moments.data.0[0];
+    let [smallest, middle, largest] = moments_kg_m2;
+    if !(largest.is_finite() && (smallest + middle).is_finite()) {
         return Err(ModelError::Overflow { part });
     }
     let zero_allowed = definiteness == Definiteness::Semidefinite;
-    let positive = if zero_allowed { smallest_kg_m2 >= -slack } else { smallest_kg_m2 > slack };
+    let positive = if zero_allowed { smallest >= -slack } else { smallest > slack };
     if !positive {
-        return Err(ModelError::NotPositive { part, smallest_kg_m2, zero_allowed });
+        return Err(ModelError::NotPositive { part, moments_kg_m2, zero_allowed });
     }
-    let others_kg_m2 = smallest_kg_m2 + middle;
-    if largest_kg_m2 > others_kg_m2 + slack {
-        return Err(ModelError::TriangleInequality { part, largest_kg_m2, others_kg_m2 });
+    if largest > smallest + middle + slack {
+        return Err(ModelError::TriangleInequality { part, moments_kg_m2 });
     }
     Ok(())
 }

@@ -76,9 +76,30 @@ pub enum DhConvention {
     /// with frame i.
     Standard,
     /// Proximal (Craig): T(i−1→i) = Rx(α) Tx(a) Rz(θ + q) Tz(d), α and a of the same row. Joint i
-    /// turns about z(i); the link of row i lies between origins i−1 and i and moves with
-    /// frame i−1, so that of row 1 is fixed to the base.
+    /// turns about z(i); the segment of row i lies between origins i−1 and i and moves with
+    /// frame i−1, so that of row 1 is fixed to the base. So does the mass of row i, unless its
+    /// [`InertialFrame`] says otherwise.
     Modified,
+}
+
+impl DhConvention {
+    /// The frame that a row's mass moves with where the row does not say: the one that its segment
+    /// moves with.
+    pub fn inertial_frame(self) -> InertialFrame {
+        match self {
+            Self::Standard => InertialFrame::Own,
+            Self::Modified => InertialFrame::Previous,
+        }
+    }
+}
+
+/// The frame that the mass of row i moves with, and that its center of mass and inertia are in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InertialFrame {
+    /// Frame i, which joint i moves: what Craig's tables and ROS files mean by the mass of link i.
+    Own,
+    /// Frame i−1, which joint i does not move. Not with standard parameters.
+    Previous,
 }
 
 /// One row of Denavit-Hartenberg parameters and the link that spans it.
@@ -94,11 +115,14 @@ pub struct Link {
     pub d_m: f64,
     /// Angle about z where the joint coordinate is zero, rad.
     pub theta_rad: f64,
-    /// Centre of mass in the link's own frame, the one it moves with (see [`DhConvention`]), m.
-    /// Half way between the two origins if not given.
+    /// The frame that the mass moves with; the convention's if not given (see
+    /// [`DhConvention::inertial_frame`]).
+    pub inertial_frame: Option<InertialFrame>,
+    /// Centre of mass in the frame that the mass moves with, m. Half way between the two origins if
+    /// not given.
     pub center_of_mass_m: Option<Vector3<f64>>,
-    /// Inertia about the centre of mass in the axes of the link's own frame, kg m². That of a
-    /// uniform slender rod between the two origins if not given: zero where they coincide.
+    /// Inertia about the centre of mass in the axes of the frame that the mass moves with, kg m².
+    /// That of a uniform slender rod between the two origins if not given: zero where they coincide.
     pub inertia_kg_m2: Option<Matrix3<f64>>,
 }
 
@@ -112,6 +136,7 @@ impl Link {
             alpha_rad,
             d_m,
             theta_rad,
+            inertial_frame: None,
             center_of_mass_m: None,
             inertia_kg_m2: None,
         }
@@ -122,8 +147,9 @@ impl Link {
         self.a_m.hypot(self.d_m)
     }
 
-    pub(crate) fn check(&self, part: Part) -> Result<(), ModelError> {
+    pub(crate) fn check(&self, part: Part, convention: DhConvention) -> Result<(), ModelError> {
         check_mass(part, self.mass_kg)?;
+        self.check_inertial_frame(part, convention)?;
         for (quantity, value) in [
             ("a_m", self.a_m),
             ("alpha_rad", self.alpha_rad),
@@ -136,6 +162,29 @@ impl Link {
             check_finite(part, "center_of_mass_m", *value)?;
         }
         check_inertia(part, self.mass_kg, self.inertia_kg_m2.as_ref())
+    }
+
+    /// The segment between the two origins, from which the defaults come, moves with the convention's
+    /// frame: in another one nothing says where the mass is.
+    fn check_inertial_frame(&self, part: Part, convention: DhConvention) -> Result<(), ModelError> {
+        let usual = convention.inertial_frame();
+        let frame = self.inertial_frame.unwrap_or(usual);
+        match (convention, frame) {
+            _ if frame == usual => Ok(()),
+            (DhConvention::Standard, _) => Err(ModelError::PreviousFrame { part }),
+            (DhConvention::Modified, _) => {
+                let missing = [
+                    ("center_of_mass_m", self.center_of_mass_m.is_none()),
+                    ("inertia_kg_m2", self.inertia_kg_m2.is_none()),
+                ];
+                match missing.into_iter().find(|(_, is_missing)| *is_missing) {
+                    Some((quantity, _)) if self.mass_kg > 0.0 => {
+                        Err(ModelError::MissingInertial { part, quantity })
+                    }
+                    _ => Ok(()),
+                }
+            }
+        }
     }
 }
 

@@ -24,7 +24,8 @@ impl System {
     /// [`ModelError`] names the part, the value and what is allowed: no links, a number that is not
     /// finite, a negative mass, a base without mass, an inertia that is not symmetric, not positive
     /// (zero is allowed for links and payload), or beyond the triangle inequality by more than one
-    /// part in 10⁹, a mount that is not rotated by a rotation.
+    /// part in 10⁹, a link whose mass is in a frame that the convention does not allow or in which
+    /// nothing says where it is, a mount that is not rotated by a rotation.
     pub fn new(
         base: Base,
         mount: Mount,
@@ -38,7 +39,7 @@ impl System {
             return Err(ModelError::EmptyChain);
         }
         for (index, link) in links.iter().enumerate() {
-            link.check(Part::Link(index))?;
+            link.check(Part::Link(index), convention)?;
         }
         if let Some(payload) = &payload {
             payload.check()?;
@@ -93,11 +94,16 @@ impl System {
         self.payload.as_ref()
     }
 
-    /// Whether two links (counted from zero) touch at a joint by construction: every link between
-    /// them has no length. Also true of a link and itself.
-    pub fn links_meet(&self, a: usize, b: usize) -> bool {
+    /// Length of the arm: of all links together, m.
+    pub fn length_m(&self) -> f64 {
+        self.links.iter().map(Link::length_m).sum()
+    }
+
+    /// Length of the links between two links (counted from zero) together, m: the two are never
+    /// farther apart. Zero for neighbours, and for a link and itself.
+    pub fn length_between_m(&self, a: usize, b: usize) -> f64 {
         let (inboard, outboard) = (a.min(b), a.max(b));
         let between = self.links.get(inboard + 1..outboard).unwrap_or_default();
-        between.iter().all(|link| link.length_m() == 0.0)
+        between.iter().map(Link::length_m).sum()
     }
 }

@@ -206,8 +206,7 @@ fn links_of_a_straight_arm_are_apart_by_what_lies_between() {
     assert!((segments[1].distance_to_segment(&segments[3]) - 0.25).abs() < 1e-15);
     let center = Vector3::zeros();
     assert!((segments[1].distance_to_point(&center) - 0.5).abs() < 1e-15);
-    assert!(arm.links_meet(1, 2) && !arm.links_meet(1, 3) && arm.links_meet(2, 2));
-    let real = support::table_one::canadarm2();
-    assert!(real.links_meet(5, 3) == real.links_meet(3, 5));
-    assert!(real.links_meet(0, 1) && !real.links_meet(1, 3));
+    assert_eq!((arm.length_between_m(1, 2), arm.length_between_m(2, 2)), (0.0, 0.0));
+    assert_eq!((arm.length_between_m(1, 3), arm.length_between_m(3, 0)), (0.25, 0.5));
+    assert_eq!(arm.length_m(), 1.0);
 }

@@ -4,7 +4,7 @@ mod support;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use righting_multibody::{
-    Base, DhConvention, Link, ModelError, Mount, Part, Payload, State, System,
+    Base, DhConvention, InertialFrame, Link, ModelError, Mount, Part, Payload, State, System,
 };
 
 fn rod() -> Link {
@@ -108,6 +108,43 @@ fn inertias() {
         error(|base, _, _, _| base.inertia_kg_m2 = flat),
         ModelError::NotPositive { part: Part::Base, zero_allowed: false, .. }
     ));
+}
+
+#[test]
+fn frames_of_a_mass() {
+    let own = |center: Option<Vector3<f64>>, inertia: Option<Matrix3<f64>>| {
+        build(|_, _, links, _| {
+            links[1].inertial_frame = Some(InertialFrame::Own);
+            links[1].center_of_mass_m = center;
+            links[1].inertia_kg_m2 = inertia;
+        })
+    };
+    let (center, inertia) = (Some(Vector3::x()), Some(Matrix3::identity()));
+    let missing = |quantity| Err(ModelError::MissingInertial { part: Part::Link(1), quantity });
+    assert_eq!(own(None, inertia), missing("center_of_mass_m"));
+    assert_eq!(own(center, None), missing("inertia_kg_m2"));
+    let moved = own(center, inertia).unwrap();
+    // Frame 2 moves with joint 2, the frame before it does not.
+    let centers = |q: f64| moved.kinematics(&[0.0, q]).centers_of_mass[1];
+    assert!((centers(1.0) - centers(0.0)).norm() > 0.1);
+    build(|_, _, links, _| {
+        links[1].mass_kg = 0.0;
+        links[1].inertial_frame = Some(InertialFrame::Own);
+    })
+    .unwrap();
+    // To say the convention's frame changes nothing.
+    let said = build(|_, _, l, _| l[0].inertial_frame = Some(InertialFrame::Previous)).unwrap();
+    let unsaid = build(|_, _, _, _| ()).unwrap();
+    assert_eq!(said.locked_inertia(&[0.3, 0.7]), unsaid.locked_inertia(&[0.3, 0.7]));
+
+    let standard = |frame| {
+        let links = vec![Link { inertial_frame: Some(frame), ..rod() }];
+        let base = Base::uniform_cube(100.0, 1.0).unwrap();
+        System::new(base, Mount::at(Vector3::zeros()), DhConvention::Standard, links, None)
+    };
+    standard(InertialFrame::Own).unwrap();
+    let refused = standard(InertialFrame::Previous).unwrap_err();
+    assert_eq!(refused, ModelError::PreviousFrame { part: Part::Link(0) });
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn distances<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let long: Vec<usize> = links.filter(|&i| system.links()[i].length_m() > 0.0).collect();
     let to_base = long.iter().map(|&a| system.squared_distance_to_base(y, a));
     let pairs = long.iter().flat_map(|&a| long.iter().map(move |&b| (a, b)));
-    let apart = pairs.filter(|&(a, b)| a < b && !system.links_meet(a, b));
+    let apart = pairs.filter(|&(a, b)| a < b && system.length_between_m(a, b) > 0.0);
     to_base.chain(apart.map(|(a, b)| system.squared_distance_between(y, a, b))).collect()
 }
 

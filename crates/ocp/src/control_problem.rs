@@ -4,6 +4,7 @@ use crate::component_bounds::ComponentBounds;
 use crate::error::OcpError;
 
 type StageMap = Box<dyn Fn(&[Expr], &[Expr]) -> Vec<Expr>>;
+type StageConstraints = Box<dyn Fn(&[Expr], &[Expr], Expr) -> Vec<Expr>>;
 type StageCost = Box<dyn Fn(&[Expr], &[Expr]) -> Expr>;
 type NodeMap = Box<dyn Fn(&[Expr]) -> Vec<Expr>>;
 type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
@@ -14,7 +15,7 @@ type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
 /// min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)
 /// s.t. ẋ = f(x, u),  x(0) given,  u constant over each step
 ///      x_lower ≤ x_k ≤ x_upper,  c_lower ≤ c(x_k) ≤ c_upper     (k = 1…N)
-///      u_lower ≤ u_k ≤ u_upper                                  (k = 0…N−1)
+///      u_lower ≤ u_k ≤ u_upper,  s_lower ≤ s(x_k, u_k, Δt) ≤ s_upper   (k = 0…N−1)
 ///      e_lower ≤ e(x_N) ≤ e_upper
 /// ```
 ///
@@ -27,6 +28,8 @@ pub struct ControlProblem {
     pub(crate) terminal_cost: NodeCost,
     pub(crate) path: NodeMap,
     pub(crate) path_bounds: ComponentBounds,
+    pub(crate) stage: StageConstraints,
+    pub(crate) stage_bounds: ComponentBounds,
     pub(crate) terminal: NodeMap,
     pub(crate) terminal_bounds: ComponentBounds,
     pub(crate) state_bounds: ComponentBounds,
@@ -50,6 +53,8 @@ impl ControlProblem {
             terminal_cost: Box::new(|_| Expr::constant(0.0)),
             path: Box::new(|_| Vec::new()),
             path_bounds: ComponentBounds::unbounded(0),
+            stage: Box::new(|_, _, _| Vec::new()),
+            stage_bounds: ComponentBounds::unbounded(0),
             terminal: Box::new(|_| Vec::new()),
             terminal_bounds: ComponentBounds::unbounded(0),
             state_bounds: ComponentBounds::unbounded(states),
@@ -80,6 +85,21 @@ impl ControlProblem {
     ) -> Self {
         self.path = Box::new(constraints);
         self.path_bounds = bounds;
+        self
+    }
+
+    /// Constrains `s(x_k, u_k, Δt)` at the beginning of every step, in place of earlier stage
+    /// constraints: what happens within a step follows from the state it starts from, the control that
+    /// is held over it and its length Δt, which the callable receives as an expression.
+    ///
+    /// A component that no control enters is not bounded in the first step, whose state is given.
+    pub fn stage_constraints(
+        mut self,
+        bounds: ComponentBounds,
+        constraints: impl Fn(&[Expr], &[Expr], Expr) -> Vec<Expr> + 'static,
+    ) -> Self {
+        self.stage = Box::new(constraints);
+        self.stage_bounds = bounds;
         self
     }
 
@@ -121,6 +141,7 @@ impl ControlProblem {
         self.state_bounds.check("state bounds", self.states)?;
         self.control_bounds.check("control bounds", self.controls)?;
         self.path_bounds.check("path constraint bounds", self.path_bounds.len())?;
+        self.stage_bounds.check("stage constraint bounds", self.stage_bounds.len())?;
         self.terminal_bounds.check("terminal constraint bounds", self.terminal_bounds.len())
     }
 }
@@ -131,6 +152,7 @@ impl std::fmt::Debug for ControlProblem {
             .field("states", &self.states)
             .field("controls", &self.controls)
             .field("path_constraints", &self.path_bounds.len())
+            .field("stage_constraints", &self.stage_bounds.len())
             .field("terminal_constraints", &self.terminal_bounds.len())
             .finish_non_exhaustive()
     }

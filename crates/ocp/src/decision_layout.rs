@@ -9,6 +9,8 @@ pub struct ShootingDimensions {
     pub controls: usize,
     /// Path constraints per node after the first.
     pub path: usize,
+    /// Stage constraints per step.
+    pub stage: usize,
     /// Constraints at the last node.
     pub terminal: usize,
     /// Steps N; nodes run from 0 to N.
@@ -20,8 +22,10 @@ pub struct ShootingDimensions {
 ///
 /// ```text
 /// z = [u_0, x_1, u_1, x_2, …, u_{N−1}, x_N]                  (x_0 is data)
-/// g = [defect_0, c(x_1), defect_1, c(x_2), …, c(x_N), e(x_N)]
+/// g = [s_0, defect_0, c(x_1), s_1, defect_1, c(x_2), …, c(x_N), e(x_N)]
 /// ```
+///
+/// where s_k = s(x_k, u_k, Δt) are the stage constraints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DecisionLayout {
     dimensions: ShootingDimensions,
@@ -60,9 +64,15 @@ impl DecisionLayout {
         end - self.dimensions.states..end
     }
 
+    /// Where s(x_k, u_k, Δt) is, k = 0…N−1.
+    pub fn stage(&self, step: usize) -> Range<usize> {
+        let start = step * self.row_stride();
+        start..start + self.dimensions.stage
+    }
+
     /// Where x_{k+1} − F(x_k, u_k) is, k = 0…N−1.
     pub fn defect(&self, step: usize) -> Range<usize> {
-        let start = step * self.row_stride();
+        let start = step * self.row_stride() + self.dimensions.stage;
         start..start + self.dimensions.states
     }
 
@@ -83,7 +93,7 @@ impl DecisionLayout {
     }
 
     fn row_stride(&self) -> usize {
-        self.dimensions.states + self.dimensions.path
+        self.dimensions.stage + self.dimensions.states + self.dimensions.path
     }
 }
 
@@ -94,13 +104,14 @@ mod tests {
     #[test]
     fn the_parts_tile_both_vectors() {
         let dimensions =
-            ShootingDimensions { states: 5, controls: 2, path: 3, terminal: 4, steps: 7 };
+            ShootingDimensions { states: 5, controls: 2, path: 3, stage: 2, terminal: 4, steps: 7 };
         let layout = DecisionLayout::new(dimensions);
         let mut variables = vec![0; layout.variables()];
         let mut rows = vec![0; layout.constraints()];
         for k in 0..dimensions.steps {
             layout.control(k).chain(layout.state(k + 1)).for_each(|i| variables[i] += 1);
-            layout.defect(k).chain(layout.path(k + 1)).for_each(|i| rows[i] += 1);
+            let parts = layout.stage(k).chain(layout.defect(k)).chain(layout.path(k + 1));
+            parts.for_each(|i| rows[i] += 1);
         }
         layout.terminal().for_each(|i| rows[i] += 1);
         assert!(variables.iter().chain(&rows).all(|&count| count == 1));

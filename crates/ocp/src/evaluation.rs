@@ -7,6 +7,7 @@ use crate::decision_layout::DecisionLayout;
 use crate::evaluator::NodeWorkspace;
 use crate::multiple_shooting::MultipleShooting;
 use crate::node_function::NodeFunction;
+use crate::stage_functions::StageFunctions;
 use crate::structure::Scatter;
 
 /// Rows of a decision or constraint vector by step and node.
@@ -84,6 +85,22 @@ fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
     }
 }
 
+/// The port of the weights of the stage constraints, after x, u and h.
+const STAGE_WEIGHTS: usize = 3;
+
+/// Loads states, controls and step length of a block of steps.
+fn load_stage(
+    workspace: &mut righting_symbolic::Workspace,
+    functions: &StageFunctions,
+    block: Block,
+    rows: Rows<'_>,
+    step_s: f64,
+) {
+    block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
+    block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
+    workspace.input_mut(2).fill(step_s);
+}
+
 impl Problem for MultipleShooting<'_> {
     fn dimensions(&self) -> righting_nlp::Dimensions {
         righting_nlp::Dimensions {
@@ -97,12 +114,15 @@ impl Problem for MultipleShooting<'_> {
         for k in 0..self.steps() {
             let (control, state) = (self.layout.control(k), self.layout.state(k + 1));
             let (defect, path) = (self.layout.defect(k), self.layout.path(k + 1));
+            let (stage, stage_bounds) = (self.layout.stage(k), functions.stage_bounds.of_step(k));
             bounds.x_lower[control.clone()].copy_from_slice(&functions.control_bounds.lower);
             bounds.x_upper[control].copy_from_slice(&functions.control_bounds.upper);
             bounds.x_lower[state.clone()].copy_from_slice(&functions.state_bounds.lower);
             bounds.x_upper[state].copy_from_slice(&functions.state_bounds.upper);
             bounds.g_lower[defect.clone()].fill(0.0);
             bounds.g_upper[defect].fill(0.0);
+            bounds.g_lower[stage.clone()].copy_from_slice(&stage_bounds.lower);
+            bounds.g_upper[stage].copy_from_slice(&stage_bounds.upper);
             bounds.g_lower[path.clone()].copy_from_slice(&functions.path_bounds.lower);
             bounds.g_upper[path].copy_from_slice(&functions.path_bounds.upper);
         }
@@ -210,6 +230,18 @@ impl Problem for MultipleShooting<'_> {
                 }
             }
         }
+        if !functions.stage_bounds.is_empty() {
+            let stage = &mut self.evaluator.stage.value;
+            for block in Block::cover(steps) {
+                load_stage(stage, functions, block, rows, self.grid.step_s());
+                functions.stage.value.evaluate_block(stage);
+                for (lane, step) in block.items() {
+                    for (index, row) in layout.stage(step).enumerate() {
+                        g[row] = lanes(stage.output(0), index)[lane];
+                    }
+                }
+            }
+        }
         let terminal = &mut self.evaluator.terminal.value;
         load_terminal(terminal, rows.state(steps));
         functions.terminal.value.evaluate_block(terminal);
@@ -227,7 +259,7 @@ impl Problem for MultipleShooting<'_> {
     ) -> Result<(), EvaluationError> {
         values.fill(0.0);
         self.evaluate_steps(z, Some(values));
-        let Self { functions, layout, initial, jacobian, evaluator, .. } = self;
+        let Self { functions, layout, initial, jacobian, evaluator, grid, .. } = self;
         let steps = layout.dimensions().steps;
         let rows = Rows { layout: *layout, initial, vector: z };
         for block in Block::cover(steps) {
@@ -239,6 +271,18 @@ impl Problem for MultipleShooting<'_> {
                 scatter(values, &jacobian.path, entry, |index| lanes(computed, index)[lane]);
                 for slot in jacobian.next_state.clone() {
                     values[entry(slot).expect("the identity is in every step")] = 1.0;
+                }
+            }
+        }
+        if !functions.stage_bounds.is_empty() {
+            let stage = &mut evaluator.stage.first;
+            for block in Block::cover(steps) {
+                load_stage(stage, functions, block, rows, grid.step_s());
+                functions.stage.first.evaluate_block(stage);
+                let computed = stage.output(1);
+                for (lane, step) in block.items() {
+                    let entry = |slot| jacobian.entry(step, slot);
+                    scatter(values, &jacobian.stage, entry, |index| lanes(computed, index)[lane]);
                 }
             }
         }
@@ -303,6 +347,21 @@ impl Problem for MultipleShooting<'_> {
             for (lane, step) in block.items() {
                 let entry = |slot| hessian.entry(step + 1, slot);
                 scatter(values, &hessian.path, entry, |index| lanes(computed, index)[lane]);
+            }
+        }
+        if !functions.stage_bounds.is_empty() {
+            let stage = &mut evaluator.stage.second;
+            for block in Block::cover(steps) {
+                load_stage(stage, functions, block, rows, grid.step_s());
+                block.load(stage.input_mut(STAGE_WEIGHTS), functions.stage_bounds.len(), |k| {
+                    &multipliers[layout.stage(k)]
+                });
+                functions.stage.second.evaluate_block(stage);
+                let computed = stage.output(0);
+                for (lane, step) in block.items() {
+                    let entry = |slot| hessian.entry(step, slot);
+                    scatter(values, &hessian.stage, entry, |index| lanes(computed, index)[lane]);
+                }
             }
         }
         let mut add_terminal = |function: &NodeFunction,

@@ -2,7 +2,8 @@
 //! nonlinear program on a grid,
 //!
 //! ```text
-//! min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)   s.t.   x_{k+1} = F(x_k, u_k),  bounds, c(x_k), e(x_N)
+//! min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)   s.t.   x_{k+1} = F(x_k, u_k),  bounds,
+//!                                             c(x_k), s(x_k, u_k, Δt), e(x_N)
 //! ```
 //!
 //! with F one classical Runge–Kutta step (Bock & Plitt, *IFAC World Congress* 1984; Betts,
@@ -85,7 +86,7 @@ pub use stage_functions::StageFunctions;
 
 pub use num_dual::DualNum;
 pub use righting_nlp::{
-    Control, DerivativeErrors, Iteration, Options, ReducedHessian, Status, Timing,
+    Control, DerivativeErrors, Iteration, NlpScaling, Options, ReducedHessian, Status, Timing,
 };
 pub use righting_scalar::Scalar;
 pub use righting_symbolic::{Backend, Expr};

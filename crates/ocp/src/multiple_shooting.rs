@@ -49,6 +49,7 @@ impl<'f> MultipleShooting<'f> {
             states: functions.states,
             controls: functions.controls,
             path: functions.path_bounds.len(),
+            stage: functions.stage_bounds.len(),
             terminal: functions.terminal_bounds.len(),
             steps: grid.steps(),
         };

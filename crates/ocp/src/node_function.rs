@@ -23,6 +23,16 @@ impl NodeFunction {
         inputs: &[(&str, &[Expr])],
         values: &[Expr],
     ) -> Result<Self, OcpError> {
+        Self::with_parameters(name, inputs, &[], values)
+    }
+
+    /// With `parameters`, input ports after those of the variables: no derivatives are taken by them.
+    pub(crate) fn with_parameters(
+        name: &str,
+        inputs: &[(&str, &[Expr])],
+        parameters: &[(&str, &[Expr])],
+        values: &[Expr],
+    ) -> Result<Self, OcpError> {
         let variables: Vec<Expr> =
             inputs.iter().flat_map(|(_, port)| port.iter().copied()).collect();
         let weights = Expr::symbols("weight", values.len());
@@ -34,7 +44,8 @@ impl NodeFunction {
         let second = hessian_lower(weighted, &variables);
         let port = |suffix: &str| {
             let builder = Function::builder(&format!("{name}_{suffix}"));
-            inputs.iter().fold(builder, |builder, (name, port)| builder.input(name, port))
+            let ports = inputs.iter().chain(parameters);
+            ports.fold(builder, |builder, (name, port)| builder.input(name, port))
         };
         Ok(Self {
             value: port("value").output("value", values).build()?,

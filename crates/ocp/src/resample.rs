@@ -27,8 +27,8 @@ impl PrimalDualPoint {
     /// without the passive states.
     ///
     /// States are interpolated at the nodes, controls at the middles of the steps and costates at
-    /// their ends. The multipliers of bounds and path constraints are densities in time: they shrink
-    /// with the step.
+    /// their ends. The multipliers of bounds, path and stage constraints are densities in time: they
+    /// shrink with the step.
     pub fn resampled(&self, initial: &[f64], steps: usize) -> Self {
         let old = self.layout;
         let coarse = old.dimensions().steps;
@@ -63,6 +63,10 @@ impl PrimalDualPoint {
                 point.constraints[target] =
                     inner.blend(|k| self.constraints[old.defect(k).start + index]);
             }
+            for (index, target) in layout.stage(step).enumerate() {
+                point.constraints[target] =
+                    ratio * middle.blend(|k| self.constraints[old.stage(k).start + index]);
+            }
             for (index, target) in layout.path(step + 1).enumerate() {
                 point.constraints[target] =
                     ratio * inner.blend(|k| self.constraints[old.path(k + 1).start + index]);
@@ -83,6 +87,7 @@ mod tests {
             states: 1,
             controls: 1,
             path: 1,
+            stage: 1,
             terminal: 0,
             steps,
         });
@@ -94,6 +99,7 @@ mod tests {
             z[layout.state(k + 1).start] = end * end;
             constraints[layout.defect(k).start] = 1.0 - end;
             constraints[layout.path(k + 1).start] = 1.0 / steps as f64;
+            constraints[layout.stage(k).start] = (k as f64 + 0.5) / (steps as f64).powi(2);
         }
         let bounds = vec![0.5 / steps as f64; z.len()];
         PrimalDualPoint { layout, z, constraints, lower: bounds.clone(), upper: bounds }
@@ -114,6 +120,8 @@ mod tests {
             let expected = fine.constraints[defect].clamp(0.0, 0.9);
             assert!((resampled.constraints[defect] - expected).abs() < 1e-12);
             assert!((resampled.constraints[path] - fine.constraints[path]).abs() < 1e-15);
+            let stage = layout.stage(step).start;
+            assert!((resampled.constraints[stage] - fine.constraints[stage]).abs() < 1e-15);
         }
     }
 

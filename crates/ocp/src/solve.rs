@@ -192,24 +192,31 @@ impl MultipleShooting<'_> {
     /// to Ipopt and has no slack.
     pub(crate) fn stage_dims(&self) -> StageDims {
         let (functions, dimensions) = (self.functions(), self.layout().dimensions());
-        let equalities = |bounds: &ComponentBounds| {
+        let equalities = |bounds: &ComponentBounds| -> usize {
             bounds.lower.iter().zip(&bounds.upper).filter(|(lower, upper)| lower == upper).count()
         };
         let path = equalities(&functions.path_bounds);
         let terminal = equalities(&functions.terminal_bounds);
+        let [first_stage, stage] =
+            [0, 1].map(|step| equalities(functions.stage_bounds.of_step(step)));
         let inner = NodeDims {
             states: dimensions.states,
             controls: dimensions.controls,
-            equalities: path,
-            inequalities: dimensions.path - path,
+            equalities: path + stage,
+            inequalities: dimensions.path - path + dimensions.stage - stage,
         };
         let mut nodes = vec![inner; dimensions.steps + 1];
-        nodes[0] = NodeDims { controls: dimensions.controls, ..NodeDims::default() };
+        nodes[0] = NodeDims {
+            states: 0,
+            controls: dimensions.controls,
+            equalities: first_stage,
+            inequalities: dimensions.stage - first_stage,
+        };
         nodes[dimensions.steps] = NodeDims {
+            states: dimensions.states,
             controls: 0,
             equalities: path + terminal,
-            inequalities: inner.inequalities + dimensions.terminal - terminal,
-            ..inner
+            inequalities: dimensions.path - path + dimensions.terminal - terminal,
         };
         StageDims::new(nodes)
     }

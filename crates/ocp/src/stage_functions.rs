@@ -26,10 +26,13 @@ pub struct StageFunctions {
     pub(crate) running: NodeFunction,
     pub(crate) terminal_cost: NodeFunction,
     pub(crate) path: NodeFunction,
+    /// Of a step; the ports `x` and `u` are followed by its length `h`.
+    pub(crate) stage: NodeFunction,
     pub(crate) terminal: NodeFunction,
     pub(crate) state_bounds: ComponentBounds,
     pub(crate) control_bounds: ComponentBounds,
     pub(crate) path_bounds: ComponentBounds,
+    pub(crate) stage_bounds: StageBounds,
     pub(crate) terminal_bounds: ComponentBounds,
 }
 
@@ -54,10 +57,13 @@ impl StageFunctions {
         let u = Expr::symbols("u", problem.controls);
         let rates = (problem.dynamics)(&all, &u);
         let path = (problem.path)(&all);
+        let h = Expr::symbol("h");
+        let stage = (problem.stage)(&all, &u, h);
         let terminal = (problem.terminal)(&all);
         for (what, expected, found) in [
             ("dynamics", problem.states, rates.len()),
             ("path constraints", problem.path_bounds.len(), path.len()),
+            ("stage constraints", problem.stage_bounds.len(), stage.len()),
             ("terminal constraints", problem.terminal_bounds.len(), terminal.len()),
         ] {
             if expected != found {
@@ -70,6 +76,7 @@ impl StageFunctions {
         let seen: Vec<Expr> = [running, terminal_cost]
             .into_iter()
             .chain(path.iter().copied())
+            .chain(stage.iter().copied())
             .chain(terminal.iter().copied())
             .collect();
         let active = match problem.keeps_passive_states {
@@ -92,6 +99,8 @@ impl StageFunctions {
         let (n, m) = (x.len(), u.len());
         let ode = NodeFunction::compile("ode", &[("x", &x), ("u", &u)], &active_rates)?;
         let on_state = |name, values: &[Expr]| NodeFunction::compile(name, &[("x", &x)], values);
+        let variables: [(&str, &[Expr]); 2] = [("x", &x), ("u", &u)];
+        let stage = NodeFunction::with_parameters("stage", &variables, &[("h", &[h])], &stage)?;
         Ok(Self {
             states: n,
             controls: m,
@@ -108,6 +117,8 @@ impl StageFunctions {
             ),
             control_bounds: problem.control_bounds.clone(),
             path_bounds: problem.path_bounds.clone(),
+            stage_bounds: StageBounds::new(&problem.stage_bounds, &stage, n),
+            stage,
             terminal_bounds: problem.terminal_bounds.clone(),
             ode,
             active,
@@ -140,6 +151,7 @@ impl StageFunctions {
             &mut other.running,
             &mut other.terminal_cost,
             &mut other.path,
+            &mut other.stage,
             &mut other.terminal,
         ];
         let functions = nodes.into_iter().flat_map(NodeFunction::functions_mut);
@@ -159,5 +171,36 @@ impl StageFunctions {
                 + count(&self.step.multipliers)
                 + count(&self.step.second),
         )
+    }
+}
+
+/// The bounds of the stage constraints.
+#[derive(Debug, Clone)]
+pub(crate) struct StageBounds {
+    /// In the first step: a component that no control enters has none, since the state is given.
+    first: ComponentBounds,
+    later: ComponentBounds,
+}
+
+impl StageBounds {
+    fn new(bounds: &ComponentBounds, stage: &NodeFunction, states: usize) -> Self {
+        let mut first = ComponentBounds::unbounded(bounds.len());
+        for &(row, _) in stage.jacobian.entries.iter().filter(|&&(_, column)| column >= states) {
+            first.lower[row] = bounds.lower[row];
+            first.upper[row] = bounds.upper[row];
+        }
+        Self { first, later: bounds.clone() }
+    }
+
+    pub(crate) fn of_step(&self, step: usize) -> &ComponentBounds {
+        if step == 0 { &self.first } else { &self.later }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.later.len()
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.later.is_empty()
     }
 }

@@ -31,11 +31,11 @@ impl Scatter {
 /// The constraint Jacobian, step by step:
 ///
 /// ```text
-/// step k: [∂defect_k/∂x_k | ∂defect_k/∂u_k | ∂defect_k/∂x_{k+1} = I | ∂c(x_{k+1})/∂x_{k+1}]
+/// step k: [∂defect_k/∂x_k | ∂s_k/∂x_k | ∂defect_k/∂u_k | ∂s_k/∂u_k | ∂defect_k/∂x_{k+1} = I | ∂c(x_{k+1})/∂x_{k+1}]
 /// end:    [∂e(x_N)/∂x_N]
 /// ```
 ///
-/// The first part is missing in step 0. Slots count from the start of a whole step.
+/// The columns of x_k are missing in step 0. Slots count from the start of a whole step.
 #[derive(Debug, Clone)]
 pub(crate) struct JacobianStructure {
     /// Entries in columns of x_k.
@@ -43,6 +43,7 @@ pub(crate) struct JacobianStructure {
     /// Entries of a whole step.
     pub(crate) step_entries: usize,
     pub(crate) step: Scatter,
+    pub(crate) stage: Scatter,
     /// Slots of the identity.
     pub(crate) next_state: std::ops::Range<usize>,
     pub(crate) path: Scatter,
@@ -54,23 +55,31 @@ pub(crate) struct JacobianStructure {
 impl JacobianStructure {
     pub(crate) fn new(functions: &StageFunctions, steps: usize) -> Self {
         let n = functions.states;
-        let output = &functions.step.jacobian;
-        let position = |of_state: bool| {
-            let matching =
-                output.entries.iter().filter(move |&&(_, column)| (column < n) == of_state);
-            matching.copied().collect::<Vec<_>>()
-        };
-        let ordered = [position(true), position(false)].concat();
-        let state_entries = position(true).len();
-        let identity = ordered.len();
+        let (defect, stage) = (&functions.step.jacobian, &functions.stage.jacobian);
+        let [defect_states, defect_controls] = by_variable(defect, n);
+        let [stage_states, stage_controls] = by_variable(stage, n);
+        let state_entries = defect_states.len() + stage_states.len();
+        let stage_controls_start = state_entries + defect_controls.len();
+        let identity = stage_controls_start + stage_controls.len();
         let path_start = identity + n;
+        let slots = |output, parts: [(usize, &[(usize, usize)]); 2]| {
+            let [states, controls] = parts.map(|(start, entries)| (start, find_in(entries)));
+            Scatter::new(output, |row, column| {
+                let (start, find) = if column < n { &states } else { &controls };
+                start + find(row, column)
+            })
+        };
         let path = &functions.path.jacobian;
         let step_entries = path_start + path.entries.len();
         let terminal = &functions.terminal.jacobian;
         Self {
             state_entries,
             step_entries,
-            step: Scatter::new(output, find_in(&ordered)),
+            step: slots(defect, [(0, &defect_states), (state_entries, &defect_controls)]),
+            stage: slots(
+                stage,
+                [(defect_states.len(), &stage_states), (stage_controls_start, &stage_controls)],
+            ),
             next_state: identity..path_start,
             path: Scatter::new(path, |row, column| {
                 path_start + find_in(&path.entries)(row, column)
@@ -98,18 +107,23 @@ impl JacobianStructure {
     ) -> TripletStructure {
         let mut triplets = Triplets::with_capacity(self.entries);
         let n = functions.states;
-        let entries = &functions.step.jacobian.entries;
+        let [defect_states, defect_controls] = by_variable(&functions.step.jacobian, n);
+        let [stage_states, stage_controls] = by_variable(&functions.stage.jacobian, n);
         for step in 0..self.steps {
-            let row = layout.defect(step).start;
+            let (row, stage_row) = (layout.defect(step).start, layout.stage(step).start);
             if step > 0 {
                 let column = layout.state(step).start;
-                for &(i, j) in entries.iter().filter(|&&(_, j)| j < n) {
-                    triplets.push(row + i, column + j);
+                for (row, entries) in [(row, &defect_states), (stage_row, &stage_states)] {
+                    for &(i, j) in entries {
+                        triplets.push(row + i, column + j);
+                    }
                 }
             }
             let column = layout.control(step).start;
-            for &(i, j) in entries.iter().filter(|&&(_, j)| j >= n) {
-                triplets.push(row + i, column + j - n);
+            for (row, entries) in [(row, &defect_controls), (stage_row, &stage_controls)] {
+                for &(i, j) in entries {
+                    triplets.push(row + i, column + j - n);
+                }
             }
             let column = layout.state(step + 1).start;
             for i in 0..n {
@@ -139,6 +153,7 @@ pub(crate) struct HessianStructure {
     pub(crate) step: Scatter,
     pub(crate) running: Scatter,
     pub(crate) path: Scatter,
+    pub(crate) stage: Scatter,
     pub(crate) terminal_cost: Scatter,
     pub(crate) terminal: Scatter,
 }
@@ -151,6 +166,7 @@ impl HessianStructure {
             functions.step.hessian.entries.clone(),
             hessian(&functions.running),
             hessian(&functions.path),
+            hessian(&functions.stage),
             hessian(&functions.terminal_cost),
             hessian(&functions.terminal),
         ]
@@ -165,6 +181,7 @@ impl HessianStructure {
             step: scatter(&functions.step.hessian),
             running: scatter(&functions.running.hessian),
             path: scatter(&functions.path.hessian),
+            stage: scatter(&functions.stage.hessian),
             terminal_cost: scatter(&functions.terminal_cost.hessian),
             terminal: scatter(&functions.terminal.hessian),
             ordered,
@@ -221,6 +238,12 @@ impl Triplets {
         self.0.rows.push(row as i32);
         self.0.columns.push(column as i32);
     }
+}
+
+/// The entries in columns of the states, and those in columns of the controls.
+fn by_variable(output: &MatrixOutput, states: usize) -> [Vec<(usize, usize)>; 2] {
+    let (of_states, of_controls) = output.entries.iter().partition(|&&(_, column)| column < states);
+    [of_states, of_controls]
 }
 
 fn find_in(entries: &[(usize, usize)]) -> impl Fn(usize, usize) -> usize {

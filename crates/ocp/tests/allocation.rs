@@ -14,6 +14,9 @@ fn an_iteration_allocates_nothing() {
         .running_cost(|x, u| u[0] * u[0] + x[2] * x[2])
         .terminal_cost(|x| x[0].powi(2))
         .path_constraints(ComponentBounds::new(vec![-1.0], vec![1.0]), |x| vec![x[0] * x[1]])
+        .stage_constraints(ComponentBounds::new(vec![-9.0], vec![9.0]), |x, u, h| {
+            vec![x[0] + h * x[1] + u[0]]
+        })
         .terminal_constraints(ComponentBounds::new(vec![0.0], vec![0.0]), |x| vec![x[1] - x[2]]);
     let functions = StageFunctions::compile(&problem).unwrap();
     let grid = Grid::new(2.0, 50).unwrap();

@@ -39,13 +39,22 @@ fn problem() -> ControlProblem {
         })
 }
 
-fn functions(substeps: usize) -> StageFunctions {
-    let functions = StageFunctions::compile(&problem()).unwrap();
+/// Stage constraints with every kind of entry: of a state, a control and Δt in products, of states
+/// alone, of controls alone.
+fn staged(problem: ControlProblem) -> ControlProblem {
+    let bounds = ComponentBounds::new(vec![-1.0, 0.0, -2.0], vec![1.0, 0.0, f64::INFINITY]);
+    problem.stage_constraints(bounds, |x, u, h| {
+        vec![x[0] * u[1] + h * x[2].sin() * u[0], x[1] * x[3] + h * x[1], u[0] * u[1] * h]
+    })
+}
+
+fn functions(problem: &ControlProblem, substeps: usize) -> StageFunctions {
+    let functions = StageFunctions::compile(problem).unwrap();
     functions.with_substeps(NonZeroUsize::new(substeps).unwrap()).unwrap()
 }
 
-fn check(steps: usize, substeps: usize) {
-    let functions = functions(substeps);
+fn check(problem: &ControlProblem, steps: usize, substeps: usize) {
+    let functions = functions(problem, substeps);
     let grid = Grid::new(1.7, steps).unwrap().with_steps(steps).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.3, -0.2, 0.5, 0.1, 9.0]).unwrap();
     let (variables, constraints) = (program.layout().variables(), program.layout().constraints());
@@ -78,14 +87,27 @@ fn check(steps: usize, substeps: usize) {
 #[test]
 fn derivatives_agree_with_finite_differences_for_any_number_of_steps() {
     for steps in [1, 2, 5, 16, 17, 40] {
-        check(steps, 1);
+        check(&problem(), steps, 1);
+    }
+}
+
+#[test]
+fn so_do_those_of_stage_constraints_with_and_without_others() {
+    let plain = || {
+        ControlProblem::new(5, 2, tangled)
+            .running_cost(|x, u| u[0] * u[0] * x[1].exp() + x[3])
+            .terminal_cost(|x| x[2] * x[0])
+    };
+    for (steps, substeps) in [(1, 1), (2, 3), (5, 1), (17, 2)] {
+        check(&staged(problem()), steps, substeps);
+        check(&staged(plain()), steps, substeps);
     }
 }
 
 #[test]
 fn derivatives_agree_with_finite_differences_for_any_number_of_substeps() {
     for (steps, substeps) in [(1, 2), (5, 3), (17, 4)] {
-        check(steps, substeps);
+        check(&problem(), steps, substeps);
     }
 }
 
@@ -94,7 +116,7 @@ fn derivatives_agree_with_finite_differences_for_any_number_of_substeps() {
 fn substeps_are_the_steps_of_a_finer_grid_with_the_same_controls() {
     let initial = [0.3, -0.2, 0.5, 0.1, 9.0];
     let mut random = ChaCha8Rng::seed_from_u64(11);
-    let (coarse, fine) = (functions(3), functions(1));
+    let (coarse, fine) = (functions(&problem(), 3), functions(&problem(), 1));
     let one_step = |functions: &StageFunctions, grid: Grid, from: &[f64], u: &[f64]| {
         let mut program = MultipleShooting::new(functions, grid, from).unwrap();
         let guess = InitialGuess {
@@ -120,7 +142,7 @@ fn substeps_are_the_steps_of_a_finer_grid_with_the_same_controls() {
 
 #[test]
 fn the_hessian_does_not_rely_on_the_jacobian_having_been_asked_for_here() {
-    let functions = StageFunctions::compile(&problem()).unwrap();
+    let functions = StageFunctions::compile(&staged(problem())).unwrap();
     let grid = Grid::new(1.0, 3).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &[0.3, -0.2, 0.5, 0.1, 9.0]).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(3);

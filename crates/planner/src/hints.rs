@@ -1,9 +1,11 @@
-//! What may help when there is no plan.
+//! What stands in the way where a plan misses its target or there is none.
 
 use righting_results::solution::{Status, Terminal};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::scenario::{Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
+
+use crate::planned::Planned;
 
 /// So close to a limit, as a share of it, it counts as reached.
 const AT_LIMIT: f64 = 1e-3;
@@ -11,84 +13,75 @@ const AT_LIMIT: f64 = 1e-3;
 const MOST_OF_THE_TIME: f64 = 0.5;
 /// How much longer than the estimate a slew should take, for the estimate to be enough.
 const DURATION_MARGIN: f64 = 0.1;
-/// An estimate far from what was solved says little.
+/// An estimate far from what was solved says little, …
 const MOST_TIMES_LONGER: f64 = 3.0;
+/// … and this is as good.
+const TIMES_LONGER: f64 = 1.5;
 
-const MORE_STARTS: &str = r#"another start may get there: try solver.guess {"starts": 24}"#;
-
-/// Which ways are open after a solve that did not converge or misses its target; nothing to say
-/// after any other.
+/// What stood in the way of a solve that did not converge or misses its target; nothing to say after any
+/// other.
 pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status) -> Vec<String> {
-    let mut ways = Vec::new();
     match status {
-        Status::Interrupted => return ways,
-        Status::Solved | Status::Acceptable => {
-            return match missed(scenario, trajectory) {
-                Some(missed) => ways_to_target(scenario, trajectory, missed),
-                None => ways,
-            };
+        Status::Interrupted => Vec::new(),
+        Status::Solved | Status::Acceptable => match missed(scenario, trajectory) {
+            Some(terminal) => reasons(scenario, trajectory, terminal),
+            None => Vec::new(),
+        },
+        Status::IterationLimit => {
+            let mut reasons = vec!["the solver used up solver.max_iterations".to_owned()];
+            reasons.extend(active_limits(scenario, trajectory));
+            reasons
         }
-        Status::IterationLimit | Status::TimeLimit => {
-            ways.push("may converge with more: raise solver.max_iterations".to_owned());
-        }
-        _ => {}
+        _ => active_limits(scenario, trajectory),
     }
-    ways.extend(active_limits(scenario, trajectory));
-    let duration_s = scenario.horizon().duration_s;
-    ways.push(format!("a longer maneuver needs less: try horizon.duration_s {}", 1.5 * duration_s));
-    ways.push(MORE_STARTS.to_owned());
-    ways
 }
 
-/// What the target of a slew was missed by.
-struct Missed {
-    slew_rad: f64,
-    terminal: Terminal,
-}
-
-fn missed(scenario: &Scenario, trajectory: &Trajectory) -> Option<Missed> {
-    let Maneuver::Slew(slew) = scenario.maneuver() else { return None };
+/// What a slew reached instead of its target.
+fn missed(scenario: &Scenario, trajectory: &Trajectory) -> Option<Terminal> {
+    let Maneuver::Slew(_) = scenario.maneuver() else { return None };
     let terminal = Terminal::reached(scenario, trajectory);
-    let misses = terminal.attitude_error > ATTITUDE_ERROR;
-    misses.then_some(Missed { slew_rad: slew.angle_rad.abs(), terminal })
+    (terminal.attitude_error > ATTITUDE_ERROR).then_some(terminal)
 }
 
-fn ways_to_target(scenario: &Scenario, trajectory: &Trajectory, missed: Missed) -> Vec<String> {
-    let Missed { slew_rad, terminal } = missed;
-    let mut ways = vec![format!("misses its target by {:.3}\u{b0}", terminal.attitude_error_deg)];
+fn reasons(scenario: &Scenario, trajectory: &Trajectory, terminal: Terminal) -> Vec<String> {
+    let mut reasons =
+        vec![format!("misses its target by {:.3}\u{b0}", terminal.attitude_error_deg)];
     if scenario.weights().attitude == 0.0 {
-        ways.push("nothing asks for the target: weights.attitude is 0".to_owned());
-        return ways;
+        reasons.push("nothing asks for the target: weights.attitude is 0".to_owned());
+        return reasons;
     }
     let limits = active_limits(scenario, trajectory);
     if limits.is_empty() {
-        ways.push(
-            "no joint is at a limit most of the time: a smaller weights.control comes closer"
-                .to_owned(),
-        );
+        reasons.push(match scenario.is_end_hard() {
+            true => "no joint is at a limit most of the time".to_owned(),
+            false => "no joint is at a limit most of the time: effort is in the way".to_owned(),
+        });
     }
-    // Against its limits an arm turns the base by an angle that grows with the square of the time.
-    // Without any, the error is a trade for effort, which falls with its fourth power.
+    reasons.extend(limits);
+    reasons
+}
+
+/// How many times as long a maneuver should take, about.
+pub(crate) fn estimated_times_longer(scenario: &Scenario, planned: &Planned) -> f64 {
+    let Maneuver::Slew(slew) = scenario.maneuver() else { return TIMES_LONGER };
+    let terminal = &planned.solution.terminal;
     let still_to_turn = terminal.attitude_error_deg.to_radians();
-    let times_longer = match limits.is_empty() {
+    let slew_rad = slew.angle_rad.abs();
+    // Against its limits an arm turns the base by an angle that grows with the square of the time.
+    // Without any, the error is a trade for effort, which falls with its third power.
+    let times_longer = match active_limits(scenario, &planned.trajectory).is_empty() {
         false => (slew_rad / (slew_rad - still_to_turn)).sqrt(),
-        true => (terminal.attitude_error / ATTITUDE_ERROR).powf(0.25),
+        true => (terminal.attitude_error / ATTITUDE_ERROR).cbrt(),
     };
-    ways.extend(limits);
-    let duration_s = scenario.horizon().duration_s;
-    if slew_rad > still_to_turn && times_longer <= MOST_TIMES_LONGER {
-        let enough_s = (1.0 + DURATION_MARGIN) * times_longer * duration_s;
-        ways.push(format!("more time helps: try horizon.duration_s {}", two_digits(enough_s)));
-    } else {
-        ways.push(format!("more time helps: try horizon.duration_s {}", 2.0 * duration_s));
+    let is_telling = slew_rad > still_to_turn && times_longer <= MOST_TIMES_LONGER;
+    match is_telling && planned.solution.status.is_acceptable() {
+        true => (1.0 + DURATION_MARGIN) * times_longer,
+        false => TIMES_LONGER,
     }
-    ways.push(MORE_STARTS.to_owned());
-    ways.push("`righting reach` finds the shortest duration and the largest angle".to_owned());
-    ways
 }
 
 /// Rounded up to two digits.
-fn two_digits(value: f64) -> f64 {
+pub(crate) fn two_digits(value: f64) -> f64 {
     let unit = 10f64.powf(value.log10().floor() - 1.0);
     // A unit below one is a fraction that does not print well; its inverse is a whole number.
     if unit < 1.0 {

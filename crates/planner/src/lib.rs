@@ -30,6 +30,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod between_nodes;
 mod formulation;
 mod hints;
 mod initial_guess;
@@ -37,6 +38,7 @@ pub mod library;
 mod planned;
 pub mod planner;
 pub mod reach;
+mod remedies;
 mod scaling;
 mod search;
 pub mod sparsity;

@@ -7,13 +7,12 @@ use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
     AttemptRecord, ControlInterval, IterationRecord, Node, Solution, Status, Terminal, Timing,
-    Trajectory, UsedOptimizer, Verification, Versions,
+    Trajectory, UsedOptimizer, Verification, Versions, objective,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
 use righting_verifier::verify;
 
-use crate::formulation::Goal;
 use crate::hints::hints;
 use crate::scaling::Scaling;
 use crate::search::Found;
@@ -63,7 +62,7 @@ impl Planned {
         let timing_s = timing(&found, checking.elapsed());
         let terminal = Terminal::reached(scenario, &trajectory);
         let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
-        let mut notes = found.notes;
+        let mut notes = [scenario.notes(), &found.notes].concat();
         notes.extend(hints(scenario, &trajectory, status));
         let solution = Solution {
             schema: SCHEMA.to_owned(),
@@ -78,6 +77,7 @@ impl Planned {
             timing_s,
             verification,
             bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
+            stopped_deg_s: is_detumble.then(|| scenario.stopped_rate_rad_s().to_degrees()),
             reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
             notes,
             attempts: found.attempts.iter().map(attempt_record).collect(),
@@ -126,16 +126,6 @@ fn versions(solution: &righting_ocp::OcpSolution, program: &str) -> Versions {
     }
 }
 
-/// The objective of a motion in the scenario's weights.
-fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
-    let weights = scenario.weights();
-    let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
-    let controls = trajectory.intervals().iter();
-    let effort: f64 = controls.map(|interval| squares(&interval.joint_accelerations_rad_s2)).sum();
-    weights.control_per_step(scenario.horizon()) * effort
-        + Goal::of(scenario).cost(&trajectory.end().state(), &weights)
-}
-
 /// The whole motion, with the torques that it takes and their power.
 fn trajectory(
     scenario: &Scenario,
@@ -146,9 +136,16 @@ fn trajectory(
     let steps = scenario.horizon().steps;
     let mut nodes = Vec::with_capacity(steps + 1);
     let mut intervals = Vec::with_capacity(steps);
+    // The joints' own motion, exactly as the controls have it: the optimizer's defects would add up.
+    let step_s = scaling.duration(scenario.horizon().step_s());
+    let mut joints = found.solution.states.row(0).to_vec();
     for k in 0..=steps {
-        let state = found.coordinates.free_floating_state(found.solution.states.row(k));
-        let state = scaling.state(state);
+        let mut row = found.solution.states.row(k).to_vec();
+        found.coordinates.copy_joints(&joints, &mut row);
+        let state = scaling.state(found.coordinates.free_floating_state(&row));
+        if k < steps {
+            found.coordinates.move_joints(&mut joints, found.solution.controls.row(k), step_s);
+        }
         let mut accelerations =
             scaling.accelerations(found.solution.controls.row(k.min(steps - 1)));
         for (joint, acceleration) in accelerations.iter_mut().enumerate() {

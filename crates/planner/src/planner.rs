@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use righting_analysis::Impossible;
 use righting_multibody::ModelError;
 use righting_ocp::{Control, OcpError};
 use righting_results::IterationRecord;
@@ -13,8 +14,12 @@ use righting_scenario::error::ShapeError;
 
 use crate::library::PlanLibrary;
 use crate::planned::{Ending, Planned};
+use crate::remedies::remedies;
 use crate::scaling::Scaling;
 use crate::search::Search;
+
+/// How often a maneuver that costs far more than estimated is measured anew.
+const MOST_MEASURINGS: usize = 3;
 
 /// Plans maneuvers and verifies what it planned.
 ///
@@ -44,6 +49,7 @@ pub struct Planner<'a> {
     earlier: Option<&'a Trajectory>,
     library: Option<&'a mut PlanLibrary>,
     time_limit: Option<Duration>,
+    tries_remedies: bool,
     program: String,
 }
 
@@ -61,6 +67,7 @@ impl<'a> Planner<'a> {
             earlier: None,
             library: None,
             time_limit: None,
+            tries_remedies: true,
             program: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }
@@ -91,6 +98,13 @@ impl<'a> Planner<'a> {
         self
     }
 
+    /// Does not try what would help where a plan misses its target or there is none: that takes up to a few
+    /// more plans, and its outcome stands in the notes.
+    pub fn without_remedies(mut self) -> Self {
+        self.tries_remedies = false;
+        self
+    }
+
     /// What `versions.righting` of the solution says; this crate's version if nothing is said.
     pub fn program(mut self, version: &str) -> Self {
         version.clone_into(&mut self.program);
@@ -104,7 +118,8 @@ impl<'a> Planner<'a> {
     ///
     /// # Errors
     /// [`PlanError::Ocp`] when there is nothing to optimize, [`PlanError::Shape`] when the earlier plan's
-    /// arm has another number of joints.
+    /// arm has another number of joints, [`PlanError::Impossible`] when no motion of the arm makes the
+    /// maneuver: that is known before anything is solved.
     pub fn plan(
         &mut self,
         scenario: &Scenario,
@@ -121,6 +136,9 @@ impl<'a> Planner<'a> {
         };
         let earlier = self.earlier.or(nearest.as_ref().map(|near| &near.trajectory));
         require_same_joints(scenario, earlier)?;
+        if let Some(reason) = Impossible::of(scenario) {
+            return Err(reason.into());
+        }
 
         let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
         let mut is_late = false;
@@ -128,18 +146,43 @@ impl<'a> Planner<'a> {
             is_late |= limit.is_some_and(|limit| started.elapsed() > limit);
             if is_late { Control::Stop } else { observer(record) }
         };
-        let (measured, scaling) = Scaling::applied(scenario)?;
+        let (mut measured, mut scaling) = Scaling::applied(scenario)?;
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
-        let mut watched = |record: &IterationRecord| watched(&scaling.record(record));
-        let mut found =
-            Search::new(&measured, self.threads, earlier.as_ref(), &mut watched)?.run()?;
+        let mut search = |measured: &Scenario, scaling: &Scaling| {
+            let mut watched = |record: &IterationRecord| watched(&scaling.record(record));
+            Search::new(measured, self.threads, earlier.as_ref(), &mut watched)?.run()
+        };
+        let mut found = search(&measured, &scaling)?;
+        for _ in 0..MOST_MEASURINGS {
+            let Some(again) = scaling.after(scenario, &measured, &found)? else { break };
+            let attempts = std::mem::take(&mut found.attempts);
+            (measured, scaling) = again;
+            found = search(&measured, &scaling)?;
+            found.attempts.splice(..0, attempts);
+        }
         found.notes.splice(..0, note);
         let ending = match (found.is_interrupted, is_late) {
             (false, _) => Ending::Finished,
             (true, true) => Ending::TimeLimit,
             (true, false) => Ending::Interrupted,
         };
-        Ok(Planned::new(scenario, &scaling, found, ending, &self.program)?)
+        let mut planned = Planned::new(scenario, &scaling, found, ending, &self.program)?;
+        if self.tries_remedies {
+            let threads = self.threads;
+            planned.solution.notes.extend(remedies(scenario, &planned, |changed| {
+                let mut is_stopped = false;
+                let mut watched = |record: &IterationRecord| {
+                    let late = limit.is_some_and(|limit| started.elapsed() > limit);
+                    let control = if late { Control::Stop } else { observer(record) };
+                    is_stopped |= control == Control::Stop;
+                    control
+                };
+                let mut planner = Planner::new().threads(threads).without_remedies();
+                let tried = planner.plan(changed, &mut watched).ok();
+                tried.filter(|_| !is_stopped)
+            }));
+        }
+        Ok(planned)
     }
 }
 
@@ -169,4 +212,7 @@ pub enum PlanError {
     /// The parts of the trajectory do not fit together.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// No motion of the arm makes the maneuver.
+    #[error(transparent)]
+    Impossible(#[from] Impossible),
 }

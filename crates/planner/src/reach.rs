@@ -202,8 +202,8 @@ pub enum ReachError {
 /// [module](self) for how. `watch` sees the progress and may stop it.
 ///
 /// # Errors
-/// [`ReachError`] when there is nothing to vary or a maneuver cannot be solved at all. Not finding
-/// any success is none.
+/// [`ReachError`] when there is nothing to vary, a maneuver cannot be solved at all, or no motion of the
+/// arm makes any of those tried. Not finding any success is none.
 pub fn reach(
     scenario: &Scenario,
     settings: ReachSettings,
@@ -221,6 +221,12 @@ pub fn reach(
         && let Some(succeeded) = trials.attempt(value)?
     {
         frontier.record(value, succeeded);
+    }
+    if !trials.is_interrupted && trials.impossible.len() == trials.tries.len() {
+        let easiest = trials.impossible.pop();
+        if let Some(reason) = easiest {
+            return Err(PlanError::from(reason).into());
+        }
     }
     let mut notes = Vec::new();
     if !trials.is_interrupted

@@ -1,9 +1,9 @@
 //! The measures of a maneuver: it is planned in units of its own.
 //!
 //! Lengths are measured by the system's size, masses by its mass, and time so that every maneuver, or its
-//! beginning where that is all that counts, takes [`DURATION`]. The objective is measured by what a maneuver of that size costs: the optimizer's
-//! tolerances, which are absolute, are then relative to the plan's cost whatever the units of the file,
-//! the size of the arm and the length of the maneuver.
+//! beginning where that is all that counts, takes [`DURATION`]. The objective is measured by what a maneuver
+//! of that size costs: the optimizer's tolerances, which are absolute, are then relative to the plan's cost
+//! whatever the units of the file, the size of the arm and the length of the maneuver.
 //!
 //! The constant guess is the paper's solve, and keeps the units of the file.
 
@@ -17,6 +17,7 @@ use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 
 use crate::formulation::Coordinates;
 use crate::initial_guess::InitialGuesses;
+use crate::search::Found;
 
 /// Duration of every maneuver in its own unit of time: that of the paper's, so that its unit is a second.
 const DURATION: f64 = 30.0;
@@ -31,10 +32,15 @@ const SMALLEST_SLEW_RAD: f64 = 2e-3;
 /// The objective of drifting in a detumble: that of the paper's, which start at 20 deg/s with a weight of
 /// 100.
 const DRIFT_COST: f64 = 12.184_696_791_468_343;
-/// Weights of a hard end, where the effort of the maneuver is about one: attitude, and rates times the
-/// unit of time.
+/// Weights of a hard end, where the effort of the maneuver is about one: attitude, at the least and times
+/// half the angle of a small slew, whose effort buys so much more of it, and rates times the unit of time.
 const HARD_ATTITUDE: f64 = 1e6;
+const HARD_SMALL_ATTITUDE: f64 = 2e5;
 const HARD_RATE: f64 = 1e5;
+/// A hard end is missed by more than this, as the norm of the attitude error's vector part, …
+const HARD_MISS: f64 = 1e-4;
+/// … because the effort is dearer than estimated, if the objective is above this.
+const DEAR: f64 = 10.0;
 /// Of a detumble, the weight of the joint rates in that of the base's rate, and the effort's in both.
 const HARD_DETUMBLE_JOINTS: f64 = 1e3;
 const HARD_DETUMBLE_EFFORT: f64 = 0.01;
@@ -65,16 +71,49 @@ impl Scaling {
         let weights = measured.weights();
         let objective = match measured.maneuver() {
             Maneuver::Slew(_) => weights.control * effort(&measured),
-            Maneuver::Detumble => weights.angular_rate * drift_rate(&measured).powi(2) / DRIFT_COST,
+            Maneuver::Detumble => {
+                weights.angular_rate * measured.stopped_rate_rad_s().powi(2) / DRIFT_COST
+            }
         };
         // A weight of zero says nothing of a measure.
         let objective = if objective > 0.0 { objective } else { 1.0 };
-        let measured = scenario.in_units(&units, objective)?;
+        Self { units, objective }.measured(scenario)
+    }
+
+    /// The scenario measured anew where what was found misses a hard end because it costs far more than was
+    /// estimated; none where that is not so.
+    ///
+    /// # Errors
+    /// As [`applied`](Self::applied).
+    pub(crate) fn after(
+        &self,
+        scenario: &Scenario,
+        measured: &Scenario,
+        found: &Found,
+    ) -> Result<Option<(Scenario, Self)>, ModelError> {
+        let Maneuver::Slew(slew) = measured.maneuver() else { return Ok(None) };
+        let solution = &found.solution;
+        if !scenario.is_end_hard() || found.is_interrupted || !solution.status.is_success() {
+            return Ok(None);
+        }
+        let end = solution.states.row(solution.states.len() - 1);
+        let reached = found.coordinates.free_floating_state(end).attitude;
+        let miss = reached.error_vector(&slew.target).norm();
+        if miss < HARD_MISS || solution.objective < DEAR {
+            return Ok(None);
+        }
+        let objective = self.objective * solution.objective;
+        Ok(Some(Self { objective, ..*self }.measured(scenario)?))
+    }
+
+    /// The scenario in these measures.
+    fn measured(self, scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
+        let measured = scenario.in_units(&self.units, self.objective)?;
         let weights = match scenario.is_end_hard() {
             true => hard(&measured),
             false => measured.weights(),
         };
-        Ok((measured.with_weights(weights), Self { units, objective }))
+        Ok((measured.with_weights(weights), self))
     }
 
     /// A state in SI units.
@@ -89,6 +128,11 @@ impl Scaling {
         }
     }
 
+    /// Seconds in these units.
+    pub(crate) fn duration(&self, seconds: f64) -> f64 {
+        seconds / self.units.time_s
+    }
+
     /// Joint accelerations in SI units.
     pub(crate) fn accelerations(&self, measured: &[f64]) -> Vec<f64> {
         measured.iter().map(|acceleration| acceleration / self.units.time_s.powi(2)).collect()
@@ -97,7 +141,7 @@ impl Scaling {
     /// An iteration's record with the objective in the file's weights.
     pub(crate) fn record(&self, measured: &IterationRecord) -> IterationRecord {
         let objective = measured.objective * self.objective;
-        IterationRecord { objective, ..measured.clone() }
+        IterationRecord { objective, ..*measured }
     }
 
     /// A motion of the same system in these units; its torques and powers stay as they are.
@@ -155,14 +199,15 @@ pub(crate) fn is_paper(scenario: &Scenario) -> bool {
 fn hard(measured: &Scenario) -> Weights {
     let given = measured.weights();
     match measured.maneuver() {
-        Maneuver::Slew(_) => Weights {
-            attitude: HARD_ATTITUDE,
+        Maneuver::Slew(slew) => Weights {
+            attitude: HARD_ATTITUDE
+                .max(HARD_SMALL_ATTITUDE / (0.5 * slew.angle_rad.abs().max(SMALLEST_SLEW_RAD))),
             angular_rate: HARD_RATE,
             joint_rate: HARD_RATE,
             ..given
         },
         Maneuver::Detumble => {
-            let angular_rate = DRIFT_COST / drift_rate(measured).powi(2);
+            let angular_rate = DRIFT_COST / measured.stopped_rate_rad_s().powi(2);
             Weights {
                 control: HARD_DETUMBLE_EFFORT,
                 angular_rate,
@@ -171,14 +216,6 @@ fn hard(measured: &Scenario) -> Weights {
             }
         }
     }
-}
-
-/// The base's rate when the arm has stopped in its first posture.
-fn drift_rate(measured: &Scenario) -> f64 {
-    let initial = measured.initial();
-    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
-    let (angles, stopped) = (&initial.joint_angles_rad, vec![0.0; initial.joint_rates_rad_s.len()]);
-    measured.system().model.reduced_angular_rate(angles, &stopped, &momentum).norm()
 }
 
 /// About what ∫‖q̈‖² dt over the reference interval a slew takes at least, from motions that make it.

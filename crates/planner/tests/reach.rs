@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::Control;
 use righting_planner::reach::{LONGEST, Progress, Quantity, StartedFrom};
-use righting_planner::{Planner, Reach, ReachError, ReachSettings, reach};
+use righting_planner::{PlanError, Planner, Reach, ReachError, ReachSettings, reach};
 use righting_results::{Status, Terminal};
 use righting_scenario::Scenario;
 use righting_test_support::{shipped, varied};
@@ -120,6 +120,42 @@ fn what_cannot_be_solved_is_out_of_reach() {
     assert_eq!((found.first_succeeding, found.last_failing), (None, Some(LONGEST * 30.0)));
     assert!(found.plan.is_none() && found.tries.len() == 5);
     assert!(found.tries.iter().all(|tried| tried.status == Status::IterationLimit));
+}
+
+#[test]
+fn angles_that_no_motion_makes_fail_without_a_solve() {
+    // One joint within limits, about the base's own axis: the angle is all it has.
+    let scenario = varied(&shipped("slew_2dof"), |file| {
+        let righting_scenario::file::SystemReference::Inline(system) = &mut file.system else {
+            panic!("a resolved system is inline")
+        };
+        system.mount.position_m = [0.0; 3];
+        system.links.remove(0);
+        system.links[0].theta_deg = 0.0;
+        file.initial.joint_angles_deg = vec![0.0];
+        file.initial.joint_rates_deg_s = None;
+        file.maneuver.axis = Some([0.0, 0.0, 1.0]);
+        file.maneuver.angle_deg = Some(60.0);
+        file.horizon.duration_s = 60.0;
+        file.horizon.steps = 60.0;
+    });
+    let settings = ReachSettings { resolution: 4.0, ..ReachSettings::new(Quantity::Angle) };
+    let found = searched(&scenario, settings);
+    // By its ratio of inertias the rod turns the base so far within ± 90°.
+    let (m, l, mass) = (25.0_f64, 1.0, 300.0);
+    let rod = m * l * l / 12.0 + m * mass / (m + mass) * l * l / 4.0;
+    let most = 90.0 * rod / (mass * 0.25 / 6.0 + rod);
+    let (pass, fail) = (found.first_succeeding.unwrap(), found.last_failing.unwrap());
+    assert!(pass <= most && most <= fail && fail - pass <= 4.0, "{pass} {most} {fail}");
+    for tried in found.tries.iter().filter(|tried| !tried.succeeded) {
+        assert!(tried.iterations == 0 && tried.objective.is_nan(), "{tried:?}");
+        let shortfall = tried.shortfall.as_ref().unwrap();
+        assert!(shortfall.starts_with("impossible: only joint 1"), "{shortfall}");
+    }
+    // Across, no angle is possible, and the search says why.
+    let across = varied(&scenario, |file| file.maneuver.axis = Some([1.0, 0.0, 0.0]));
+    let refused = reach(&across, settings, &mut |_| Control::Continue);
+    assert!(matches!(refused, Err(ReachError::Plan(PlanError::Impossible(_)))), "{refused:?}");
 }
 
 #[test]

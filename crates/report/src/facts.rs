@@ -75,7 +75,8 @@ pub(crate) fn facts(solution: &Solution, trajectory: &Trajectory) -> Vec<Fact> {
 }
 
 fn detumble_facts(solution: &Solution, trajectory: &Trajectory, rate: String) -> Vec<Fact> {
-    let start = trajectory.start().state().angular_rate.norm().to_degrees();
+    let at_start = || trajectory.start().state().angular_rate.norm().to_degrees();
+    let start = solution.stopped_deg_s.unwrap_or_else(at_start);
     let percent =
         |value: Option<f64>| value.map_or("\u{2013}".to_owned(), |p| format!("{} %", short(p)));
     let bound = solution.bound_deg_s;

@@ -105,9 +105,16 @@ fn reached(solution: &Solution) -> String {
             short(terminal.attitude_error_deg),
         ),
         ManeuverType::Detumble => {
+            let joint_rates = solution.scenario.initial.joint_rates_deg_s.iter().flatten();
+            let than = match solution.stopped_deg_s {
+                Some(stopped) if joint_rates.clone().any(|rate| *rate != 0.0) => {
+                    format!(" than the {} °/s that stopping the arm leaves", short(stopped))
+                }
+                _ => String::new(),
+            };
             let reduction = solution
                 .reduction_percent
-                .map(|percent| format!(", {} % less", short(percent)))
+                .map(|percent| format!(", {} % less{than}", short(percent)))
                 .unwrap_or_default();
             let bound = solution
                 .bound_deg_s

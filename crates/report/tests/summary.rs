@@ -34,6 +34,14 @@ fn a_detumble_says_how_close_to_the_bound_it_came() {
         "{text}"
     );
     assert!(!text.contains("Files"), "{text}");
+
+    // Of joints that move at the start, it says what the share is of.
+    let (mut moving, _) = common::result("detumble", 4, 600);
+    moving.stopped_deg_s = Some(19.9);
+    moving.scenario.initial.joint_rates_deg_s = Some(vec![1.0, 0.0, 0.0, 0.0]);
+    let text = summary(&moving, &[]);
+    let part = "39.3 % less than the 19.9 °/s that stopping the arm leaves (at least 9.22";
+    assert!(text.contains(part), "{text}");
 }
 
 #[test]

@@ -30,14 +30,15 @@ impl Terminal {
         }
     }
 
-    /// By how much a detumble has reduced the base's angular rate, %.
+    /// By how much less the base turns after a detumble than with the arm simply stopped at the start
+    /// ([`Scenario::stopped_rate_rad_s`]), %.
     pub fn reduction_percent(&self, scenario: &Scenario) -> f64 {
-        let start_deg_s = scenario.initial().angular_rate_rad_s.norm().to_degrees();
-        100.0 * (1.0 - self.angular_rate_deg_s / start_deg_s)
+        let stopped_deg_s = scenario.stopped_rate_rad_s().to_degrees();
+        100.0 * (1.0 - self.angular_rate_deg_s / stopped_deg_s)
     }
 }
 
-/// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu over the intervals and the
+/// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu Δt / 0.05 s over the intervals and the
 /// weighted squared errors of the last node. Position, velocity and rates shall be zero; joint
 /// angles, and the attitude of a detumble, those of the start.
 pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
@@ -55,7 +56,7 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     let end = trajectory.end().state();
     let angles = end.joint_angles.iter().zip(&initial.joint_angles_rad);
     let joint_error: f64 = angles.map(|(end, start)| (end - start).powi(2)).sum();
-    weights.control * effort
+    weights.control_per_step(scenario.horizon()) * effort
         + weights.position * end.position.norm_squared()
         + weights.attitude * end.attitude.error_vector(&desired).norm_squared()
         + weights.velocity * end.velocity.norm_squared()

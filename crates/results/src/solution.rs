@@ -49,7 +49,11 @@ pub struct Solution {
     /// Detumble: no motion that stops the arm can leave less angular rate, deg/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound_deg_s: Option<f64>,
-    /// Detumble: how much of the initial angular rate the plan takes out, %.
+    /// Detumble: the angular rate that is left when the arm is simply stopped in its posture at the start,
+    /// deg/s; the rate at the start if the joints are at rest there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped_deg_s: Option<f64>,
+    /// Detumble: how much of that rate the plan takes out, %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduction_percent: Option<f64>,
     /// What a reader should know: a saddle that was left, or, without a plan, which way is open.

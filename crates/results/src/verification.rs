@@ -89,7 +89,8 @@ impl fmt::Display for Check {
         if let Some(subject) = &self.subject {
             write!(f, "{subject}: ")?;
         }
-        write!(f, "{:.6e}", self.value)?;
+        let [value, limit] = told_apart(self.value, self.limit);
+        write!(f, "{value}")?;
         if let Some(time_s) = self.time_s {
             write!(f, " at {time_s:.3} s")?;
         }
@@ -97,7 +98,7 @@ impl fmt::Display for Check {
             Sense::AtMost => "at most",
             Sense::AtLeast => "at least",
         };
-        write!(f, ", {sense} {:.6e}", self.limit)?;
+        write!(f, ", {sense} {limit}")?;
         if self.tolerance > 0.0 {
             write!(f, " ± {:.1e}", self.tolerance)?;
         }
@@ -105,5 +106,46 @@ impl fmt::Display for Check {
             write!(f, " {}", self.unit)?;
         }
         Ok(())
+    }
+}
+
+/// Two numbers with seven significant digits, or as many more as it takes to see that they differ.
+fn told_apart(a: f64, b: f64) -> [String; 2] {
+    let shown = |digits: usize| [a, b].map(|number| format!("{number:.digits$e}"));
+    let differ = |[a, b]: &[String; 2]| a != b;
+    (6..17).map(shown).find(differ).unwrap_or_else(|| shown(6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_just_beyond_its_limit_is_not_printed_as_the_limit() {
+        let check = |value| Check {
+            name: "angular rate at the end".to_owned(),
+            subject: None,
+            value,
+            limit: 1.0,
+            sense: Sense::AtMost,
+            tolerance: 0.0,
+            unit: "deg/s".to_owned(),
+            time_s: Some(60.0),
+            passed: false,
+        };
+        let said = |value| check(value).to_string();
+        let name = "angular rate at the end";
+        assert_eq!(
+            said(1.000_000_02),
+            format!("{name}: 1.00000002e0 at 60.000 s, at most 1.00000000e0 deg/s")
+        );
+        assert_eq!(said(1.5), format!("{name}: 1.500000e0 at 60.000 s, at most 1.000000e0 deg/s"));
+        assert_eq!(said(1.0), format!("{name}: 1.000000e0 at 60.000 s, at most 1.000000e0 deg/s"));
+        let least_above_one = 1.0 + f64::EPSILON;
+        assert!(
+            said(least_above_one).contains("1.0000000000000002e0"),
+            "{}",
+            said(least_above_one)
+        );
     }
 }

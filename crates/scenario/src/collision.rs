@@ -1,20 +1,12 @@
 //! Which links keep how far from the base and from each other.
 
-use std::f64::consts::PI;
-
 use nalgebra::Vector3;
-use righting_multibody::Kinematics;
+use righting_multibody::{Kinematics, System};
 
-use crate::error::Error;
-use crate::halton::Halton;
-use crate::json::Location;
 use crate::system_description::SystemDescription;
 
-/// How far inside its clearance a maneuver may start: rounding only.
-const ROUNDING_M: f64 = 1e-9;
-
-/// Arm configurations tried to see whether an exempt link can leave the keep-out sphere.
-const SAMPLES: usize = 2000;
+/// A link shorter than this part of its arm has no length: rounding of what is meant as zero.
+const NO_LENGTH: f64 = 1e-9;
 
 /// The clearances of a system's links. A link is the straight segment between its two origins; one
 /// without length collides with nothing.
@@ -26,8 +18,9 @@ pub struct CollisionModel {
     pub body_distance_m: f64,
     /// Links that keep away from the base, counted from zero.
     pub body_links: Vec<usize>,
-    /// Pairs of links that keep away from each other: those that share no joint, counted from zero,
-    /// inboard link first.
+    /// Pairs of links that keep away from each other, counted from zero, inboard link first: those
+    /// that can be as far apart as the clearance. Links with no more than the clearance between them
+    /// along the arm share a joint.
     pub link_pairs: Vec<(usize, usize)>,
 }
 
@@ -63,13 +56,14 @@ impl std::fmt::Display for Between {
 impl CollisionModel {
     /// The clearances of a system.
     pub fn new(system: &SystemDescription, clearance_m: f64) -> Self {
-        let links = system.model.links();
+        let model = &system.model;
         let bodies: Vec<usize> =
-            (0..links.len()).filter(|&link| links[link].length_m() > 0.0).collect();
+            (0..model.joint_count()).filter(|&link| has_length(model, link)).collect();
+        let farthest_neighbors_m = clearance_m.max(NO_LENGTH * model.length_m());
         let link_pairs = bodies
             .iter()
             .flat_map(|&a| bodies.iter().map(move |&b| (a, b)))
-            .filter(|&(a, b)| a < b && !system.model.links_meet(a, b))
+            .filter(|&(a, b)| a < b && model.length_between_m(a, b) > farthest_neighbors_m)
             .collect();
         Self {
             clearance_m,
@@ -77,6 +71,19 @@ impl CollisionModel {
             body_links: bodies.into_iter().filter(|&link| !system.body_exempt[link]).collect(),
             link_pairs,
         }
+    }
+
+    /// Pairs of links that keep no clearance though there is an arm between them, since that is no
+    /// longer than the clearance; with its length, m.
+    pub(crate) fn neighbors_across_links(&self, system: &System) -> Vec<(usize, usize, f64)> {
+        let bodies = (0..system.joint_count()).filter(|&link| has_length(system, link));
+        let bodies: Vec<usize> = bodies.collect();
+        let pairs = bodies.iter().flat_map(|&a| bodies.iter().map(move |&b| (a, b)));
+        pairs
+            .filter(|&(a, b)| a < b && !self.link_pairs.contains(&(a, b)))
+            .map(|(a, b)| (a, b, system.length_between_m(a, b)))
+            .filter(|&(.., between_m)| between_m > NO_LENGTH * system.length_m())
+            .collect()
     }
 
     /// Every clearance of an arm posture, in a fixed order.
@@ -96,107 +103,14 @@ impl CollisionModel {
         });
         body.chain(links)
     }
-
-    /// Refuses a start with a link too close to something.
-    pub(crate) fn check_start(
-        &self,
-        system: &SystemDescription,
-        joint_angles_rad: &[f64],
-        place: &Location,
-    ) -> Result<(), Error> {
-        let posture = system.model.kinematics(joint_angles_rad);
-        let collision = self
-            .clearances(&posture)
-            .find(|clearance| clearance.distance_m < clearance.least_m - ROUNDING_M);
-        let Some(Clearance { between, distance_m, least_m }) = collision else { return Ok(()) };
-        let (value, allowed) = match between {
-            Between::Links(a, b) => (
-                format!("a start with links {} and {} {distance_m:.4} m apart", a + 1, b + 1),
-                format!("at least the clearance, {least_m} m"),
-            ),
-            Between::LinkAndBody(link) => (
-                format!(
-                    "a start with link {} {distance_m:.4} m from the base's center of mass",
-                    link + 1
-                ),
-                format!(
-                    "at least {least_m:.4} m, keep-out radius and clearance (if link {} is part of \
-                     the mount, set its body_exempt)",
-                    link + 1
-                ),
-            ),
-        };
-        Err(place.refuse(value, allowed))
-    }
-
-    /// Refuses an exemption of a link that can be outside the keep-out sphere: only one that is
-    /// always inside is part of the mount.
-    pub(crate) fn check_exemptions(
-        &self,
-        system: &SystemDescription,
-        joint_angles_rad: &[f64],
-        links: &Location,
-    ) -> Result<(), Error> {
-        let model = &system.model;
-        let exempt: Vec<usize> = (0..system.joint_count())
-            .filter(|&link| system.body_exempt[link] && model.links()[link].length_m() > 0.0)
-            .collect();
-        if exempt.is_empty() {
-            return Ok(());
-        }
-        let mut farthest = vec![0.0_f64; system.joint_count()];
-        let mut look = |joint_angles_rad: &[f64]| {
-            let posture = model.kinematics(joint_angles_rad);
-            for &link in &exempt {
-                farthest[link] = farthest[link].max(distance_to_body(&posture, link));
-            }
-        };
-        look(joint_angles_rad);
-        for sample in Halton::new(system.joint_count()).take(SAMPLES) {
-            look(&system.joint_angles_at(&sample));
-        }
-        for link in exempt {
-            if farthest[link] >= self.body_distance_m {
-                let allowed = format!(
-                    "false: link {} can be {:.4} m from the base's center of mass, outside the \
-                     keep-out sphere with its clearance, {:.4} m",
-                    link + 1,
-                    farthest[link],
-                    self.body_distance_m
-                );
-                return Err(links.index(link).key("body_exempt").refuse(true, allowed));
-            }
-        }
-        Ok(())
-    }
 }
 
-impl SystemDescription {
-    /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
-    /// limits ranges over one turn.
-    pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {
-        let ranges = self.joint_limits.iter().zip(unit);
-        ranges
-            .map(|(limits, unit)| {
-                let (low, high) = limits.angle_range_rad();
-                low + (high - low) * unit
-            })
-            .collect()
-    }
+/// Whether a link collides at all.
+pub(crate) fn has_length(model: &System, link: usize) -> bool {
+    model.links()[link].length_m() > NO_LENGTH * model.length_m()
 }
 
-impl crate::JointLimits {
-    /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.
-    pub fn angle_range_rad(&self) -> (f64, f64) {
-        match (self.angle_min_rad.is_finite(), self.angle_max_rad.is_finite()) {
-            (true, true) => (self.angle_min_rad, self.angle_max_rad),
-            (true, false) => (self.angle_min_rad, self.angle_min_rad + 2.0 * PI),
-            (false, true) => (self.angle_max_rad - 2.0 * PI, self.angle_max_rad),
-            (false, false) => (-PI, PI),
-        }
-    }
-}
-
-fn distance_to_body(posture: &Kinematics<f64>, link: usize) -> f64 {
+/// Distance of a link from the base's center of mass, m.
+pub(crate) fn distance_to_body(posture: &Kinematics<f64>, link: usize) -> f64 {
     posture.segments[link].distance_to_point(&Vector3::zeros())
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::{fmt, io};
 
-use crate::json::FileKind;
+use crate::file_kind::FileKind;
 
 /// Any failure of this crate that is the input's or the file system's fault.
 ///

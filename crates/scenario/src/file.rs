@@ -296,6 +296,10 @@ pub struct System {
     /// One row a joint, from the base to the tip.
     #[schemars(length(min = 1, max = 32))]
     pub links: Vec<Link>,
+    /// Whether an inertia that no rigid body has (of base, links or payload) is replaced by the
+    /// nearest one, in the Frobenius norm, that a body can have; false by default: it is refused.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub project_inertias: bool,
     /// A rigid body held at the last link's frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub payload: Option<Payload>,
@@ -342,8 +346,20 @@ pub enum DhConvention {
     Standard,
     /// Craig's: row i places joint i from frame i−1 by a and α, then turns by θ and shifts by d
     /// about the new z. The mass of row i sits on the segment from origin i−1 to origin i and moves
-    /// with frame i−1.
+    /// with frame i−1, unless the row's `inertial_frame` says otherwise.
     Modified,
+}
+
+/// The frame that the mass of row i moves with, and that its center of mass and inertia are in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InertialFrame {
+    /// Frame i, which joint i moves: what Craig's tables and ROS files mean by the mass of link i.
+    /// With modified parameters a link that has mass then needs its `center_of_mass_m` and
+    /// `inertia_kg_m2`.
+    Own,
+    /// Frame i−1, which joint i does not move; with modified parameters only.
+    Previous,
 }
 
 /// One joint, its Denavit–Hartenberg parameters, its limits, and the mass that goes with it.
@@ -361,7 +377,8 @@ pub struct Link {
     pub d_m: f64,
     /// Angle θ₀ added to the joint angle, deg.
     pub theta_deg: f64,
-    /// Smallest joint angle, deg; null or absent for none.
+    /// Smallest joint angle, deg; null or absent for none. Where it equals the largest, the joint is
+    /// locked.
     #[serde(default)]
     pub angle_min_deg: Option<f64>,
     /// Largest joint angle, deg; null or absent for none.
@@ -373,14 +390,19 @@ pub struct Link {
     /// Largest joint acceleration in magnitude, deg/s².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub acceleration_max_deg_s2: f64,
-    /// Whether the link is part of the mount and may be inside the keep-out sphere.
+    /// Whether the link may be inside the keep-out sphere: for one that starts there, as part of the
+    /// mount does. It is then not kept away from the base at all.
     #[serde(default)]
     pub body_exempt: bool,
-    /// Center of mass in the frame the link moves with, m; the segment's middle by default.
+    /// The frame that the mass moves with, and that the two fields below are in; by default `own` with
+    /// standard parameters and `previous` with modified ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertial_frame: Option<InertialFrame>,
+    /// Center of mass in the frame that the mass moves with, m; the segment's middle by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_of_mass_m: Option<[f64; 3]>,
-    /// Inertia about the center of mass in the frame the link moves with, kg m²; a uniform slender
-    /// rod along the segment by default.
+    /// Inertia about the center of mass in the frame that the mass moves with, kg m²; a uniform
+    /// slender rod along the segment by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
 }
@@ -406,6 +428,10 @@ fn require_slew_target(schema: &mut schemars::Schema) {
             { "properties": { "type": { "const": "detumble" }, "axis": false, "angle_deg": false } }
         ]),
     );
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 // Whole numbers are read as any number, so that 0.5 steps meets the same complaint as 0, and written

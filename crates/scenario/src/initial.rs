@@ -5,10 +5,11 @@ use righting_multibody::{Quaternion, State};
 
 use crate::error::Error;
 use crate::file;
+use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Location, Number};
-use crate::system_description::{JointLimits, SystemDescription, unit_quaternion};
+use crate::system_description::{SystemDescription, unit_quaternion};
 
-const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3600.0, 3600.0);
+const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3.6e6, 3.6e6);
 const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
 
 /// State at the start: the base's body frame is at the origin, the system's center of mass at rest.
@@ -33,10 +34,11 @@ impl Initial {
         initial: &file::Initial,
         system: &SystemDescription,
         place: &Location,
+        notes: &mut Vec<String>,
     ) -> Result<Self, Error> {
         let limits = &system.joint_limits;
         let attitude = match initial.attitude {
-            Some(wxyz) => unit_quaternion(wxyz, &place.key("attitude"))?,
+            Some(wxyz) => unit_quaternion(wxyz, &place.key("attitude"), notes)?,
             None => Quaternion::identity(),
         };
         let rate_place = place.key("angular_rate_deg_s");
@@ -85,7 +87,11 @@ fn joint_angles(
             if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
                 let low = Number(degrees(limits.angle_min_rad));
                 let high = Number(degrees(limits.angle_max_rad));
-                let allowed = format!("{low} to {high}, the limits of joint {}", index + 1);
+                let joint = index + 1;
+                let allowed = match limits.is_locked() {
+                    true => format!("{low}, the angle at which joint {joint} is locked"),
+                    false => format!("{low} to {high}, the limits of joint {joint}"),
+                };
                 return Err(place.refuse(Number(angle_deg), allowed));
             }
             Ok(angle_rad)
@@ -106,6 +112,10 @@ fn joint_rates(
     checked
         .map(|(index, (&rate_deg_s, limits))| {
             let rate_rad_s = rate_deg_s.to_radians();
+            if limits.is_locked() && rate_deg_s != 0.0 {
+                let allowed = format!("0: joint {} is locked", index + 1);
+                return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
+            }
             if rate_rad_s.is_nan() || rate_rad_s.abs() > limits.rate_max_rad_s {
                 let allowed = format!(
                     "at most {} in magnitude, the limit of joint {}",

@@ -5,11 +5,10 @@
 //! checked value by value through a [`Location`].
 
 mod decode;
-mod kind;
 mod location;
 mod unique;
 
-pub use kind::FileKind;
+pub use crate::file_kind::FileKind;
 pub use location::{Bounds, Location, Number};
 
 use std::path::{Path, PathBuf};

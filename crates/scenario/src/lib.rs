@@ -2,7 +2,9 @@
 //!
 //! A file is parsed twice. [`mod@file`] mirrors the JSON; [`Scenario`], [`SystemDescription`] and
 //! [`WheelArray`] are what it means, in SI units and radians, every default filled in. An error names
-//! the file, the field, what stands there and what is expected there.
+//! the file, the field, what stands there and what is expected there. What is accepted with an
+//! assumption, such as a number that is off by the rounding of printed digits, is said in
+//! [`Scenario::notes`], and the resolved file holds what was taken instead.
 //!
 //! ```
 //! use std::path::Path;
@@ -30,18 +32,29 @@ pub mod collision;
 pub mod error;
 pub mod file;
 pub mod file_io;
+pub mod file_kind;
 pub mod halton;
+mod inertias;
 pub mod initial;
+pub mod joint_limits;
 pub mod json;
+mod model_error;
+mod rounding;
 pub mod scenario;
 pub mod schema;
+mod start_clearance;
+mod start_limits;
 pub mod system_description;
+pub mod system_or_scenario;
 mod units;
 pub mod wheels;
 
 pub use collision::CollisionModel;
 pub use error::Error;
+pub use file_kind::FileKind;
 pub use initial::Initial;
+pub use joint_limits::JointLimits;
 pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
-pub use system_description::{JointLimits, SystemDescription};
+pub use system_description::SystemDescription;
+pub use system_or_scenario::SystemOrScenario;
 pub use wheels::WheelArray;

@@ -13,7 +13,11 @@ use crate::file::{
     self, Formulation, Guess, LinearSolverChoice, NamedGuess, Optimizer, SystemReference,
 };
 use crate::initial::Initial;
+use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
+use crate::rounding::{COMPUTED, PRINTED};
+use crate::start_clearance::Start;
+use crate::start_limits::widen_to_start;
 use crate::system_description::{SystemDescription, read_system};
 
 /// The most intervals a horizon may have.
@@ -26,14 +30,16 @@ pub const REFERENCE_INTERVAL_S: f64 = 0.05;
 /// The most low-discrepancy starts.
 pub const MAX_STARTS: u64 = 1000;
 /// The longest duration, s.
-pub const LONGEST_S: f64 = 1e6;
+pub const LONGEST_S: f64 = 1e8;
 
 const DURATION_S: Bounds = Bounds::Above(0.0, LONGEST_S);
 const STEPS: Bounds = Bounds::Whole(1.0, MAX_STEPS as f64);
-const WEIGHT: Bounds = Bounds::Between(0.0, 1e12);
-const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e3);
+const WEIGHT: Bounds = Bounds::Between(0.0, 1e20);
+const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e8);
 const SLEW_ANGLE_DEG: Bounds = Bounds::Between(-180.0, 180.0);
 const AXIS: Bounds = Bounds::Between(-1e6, 1e6);
+/// Shorter than this, the square of an axis is lost.
+const SHORTEST_AXIS: f64 = 1e-150;
 const ITERATIONS: Bounds = Bounds::Whole(1.0, MAX_ITERATIONS as f64);
 const TIME_LIMIT_S: Bounds = Bounds::Above(0.0, 1e6);
 const TOLERANCE: Bounds = Bounds::Between(1e-14, 1e-2);
@@ -50,6 +56,7 @@ pub struct Scenario {
     pub(crate) collision: CollisionModel,
     pub(crate) solver: SolverSettings,
     pub(crate) resolved: file::Scenario,
+    pub(crate) notes: Vec<String>,
 }
 
 /// What to do.
@@ -162,11 +169,19 @@ impl Scenario {
         if scenario.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
-        let (system, links_place) =
-            resolve_system(&mut scenario.system, file, &place.key("system"))?;
-        let initial = Initial::from_file(&scenario.initial, &system, &place.key("initial"))?;
+        let mut notes = Vec::new();
+        let (mut system, links_place) =
+            resolve_system(&mut scenario.system, file, &place.key("system"), &mut notes)?;
+        let initial_place = place.key("initial");
+        if let SystemReference::Inline(file) = &mut scenario.system {
+            widen_to_start(&scenario.initial, &mut file.links, &links_place, &mut notes);
+            system.joint_limits = file.links.iter().map(JointLimits::of).collect();
+        }
+        let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
         let maneuver = maneuver(&scenario.maneuver, &initial, &place.key("maneuver"))?;
-        check_momentum(&scenario.initial, &initial, &maneuver, &system, &place.key("initial"))?;
+        let momentum_note =
+            check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
+        notes.extend(momentum_note);
         let horizon = horizon(&scenario.horizon, &place.key("horizon"))?;
         let weights = weights(&scenario.weights, &maneuver, &place.key("weights"))?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
@@ -177,16 +192,19 @@ impl Scenario {
             }
         };
         let solver = solver(&scenario.solver, &place.key("solver"))?;
+        let clearance_place = place.key("collision").key("clearance_m");
         let clearance_m = match scenario.collision.clearance_m {
-            Some(clearance_m) => {
-                place.key("collision").key("clearance_m").within(clearance_m, CLEARANCE_M)?
-            }
+            Some(clearance_m) => clearance_place.within(clearance_m, CLEARANCE_M)?,
             None => 0.01,
         };
-        let collision = CollisionModel::new(&system, clearance_m);
-        collision.check_exemptions(&system, &initial.joint_angles_rad, &links_place)?;
-        let angles_place = place.key("initial").key("joint_angles_deg");
-        collision.check_start(&system, &initial.joint_angles_rad, &angles_place)?;
+        let start = Start {
+            system: &system,
+            joint_angles_rad: &initial.joint_angles_rad,
+            angles: initial_place.key("joint_angles_deg"),
+            links: links_place,
+            clearance: clearance_place,
+        };
+        let collision = start.collision_model(clearance_m, &mut notes)?;
         let resolved = file::Scenario {
             initial: file::Initial {
                 joint_angles_deg: scenario.initial.joint_angles_deg.clone(),
@@ -202,7 +220,7 @@ impl Scenario {
             },
             weights: weights.to_file(),
             end: Some(file::End { hard: Some(is_end_hard) }),
-            collision: file::Collision { clearance_m: Some(clearance_m) },
+            collision: file::Collision { clearance_m: Some(collision.clearance_m) },
             solver: solver.to_file(),
             ..scenario
         };
@@ -216,6 +234,7 @@ impl Scenario {
             collision,
             solver,
             resolved,
+            notes,
         })
     }
 
@@ -274,7 +293,20 @@ impl Scenario {
         self.solver
     }
 
-    /// The scenario as a file, its system inline and every default filled in.
+    /// The rate that the base has once the arm is simply stopped in its posture at the start,
+    /// ‖Ĩ(q₀)⁻¹ h₀‖, rad/s: its rate at the start if the joints are at rest there.
+    pub fn stopped_rate_rad_s(&self) -> f64 {
+        stopped_rate_rad_s(&self.initial, &self.system)
+    }
+
+    /// What was accepted with an assumption, a sentence each, beginning with the field: rounding that
+    /// was taken off, inertias that were changed, what may be meant otherwise. Empty where all was said.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The scenario as a file, its system inline and every default filled in; numbers that
+    /// [`notes`](Self::notes) say were taken otherwise stand as taken.
     pub fn resolved(&self) -> &file::Scenario {
         &self.resolved
     }
@@ -315,17 +347,18 @@ fn resolve_system(
     reference: &mut SystemReference,
     file: &Path,
     place: &Location,
+    notes: &mut Vec<String>,
 ) -> Result<(SystemDescription, Location), Error> {
     match reference {
         SystemReference::Inline(system) => {
-            Ok((SystemDescription::from_file(system, place)?, place.key("links")))
+            Ok((SystemDescription::from_file(system, place, notes)?, place.key("links")))
         }
         SystemReference::File(path) => {
             if path.is_empty() {
                 return Err(place.refuse("\"\"", "the path of a system file, or a system"));
             }
             let system_file: PathBuf = file.parent().unwrap_or(Path::new("")).join(&*path);
-            let system = read_system(&system_file).map_err(|error| match error {
+            let mut system = read_system(&system_file).map_err(|error| match error {
                 Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
                 unreadable => place.refuse(
                     shown(&path.as_str().into()),
@@ -333,7 +366,7 @@ fn resolve_system(
                 ),
             })?;
             let place = Location::root(&system_file);
-            let description = SystemDescription::from_file(&system, &place)?;
+            let description = SystemDescription::from_file(&mut system, &place, notes)?;
             *reference = SystemReference::Inline(Box::new(system));
             Ok((description, place.key("links")))
         }
@@ -352,7 +385,7 @@ fn maneuver(
             let angle_deg =
                 maneuver.angle_deg.ok_or_else(|| angle_place.missing("the angle of the slew"))?;
             axis_place.all_within(axis, AXIS)?;
-            let axis = Vector3::from(axis).try_normalize(1e-9).ok_or_else(|| {
+            let axis = Vector3::from(axis).try_normalize(SHORTEST_AXIS).ok_or_else(|| {
                 let [x, y, z] = axis.map(Number);
                 axis_place.refuse(format!("[{x}, {y}, {z}]"), "a vector that is not zero")
             })?;
@@ -373,41 +406,54 @@ fn maneuver(
 }
 
 /// A slew that starts with angular momentum cannot end at rest; a detumble without any has nothing
-/// to do.
+/// to do. Momentum that printed rates leave by their rounding does no harm to a slew; the note says
+/// how large it is.
 fn check_momentum(
     given: &file::Initial,
     initial: &Initial,
     maneuver: &Maneuver,
     system: &SystemDescription,
     place: &Location,
-) -> Result<(), Error> {
-    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
-    let arm_at_rest = vec![0.0; system.joint_count()];
-    let rate_rad_s = system
-        .model
-        .reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum)
-        .norm();
+) -> Result<Option<String>, Error> {
+    let rate_rad_s = stopped_rate_rad_s(initial, system);
+    let fastest_rad_s = initial
+        .joint_rates_rad_s
+        .iter()
+        .fold(initial.angular_rate_rad_s.norm(), |fastest, rate| fastest.max(rate.abs()));
     let place = place.key("angular_rate_deg_s");
     let [x, y, z] = given.angular_rate_deg_s.unwrap_or_default().map(Number);
     let value = format!("[{x}, {y}, {z}]");
-    let turns = rate_rad_s > 1e-9;
+    let turns = rate_rad_s > COMPUTED * fastest_rad_s;
     match (maneuver, given.angular_rate_deg_s) {
-        (Maneuver::Slew(_), _) if turns => Err(place.refuse(
+        (Maneuver::Slew(_), _) if rate_rad_s > PRINTED * fastest_rad_s => Err(place.refuse(
             value,
             format!(
                 "a rate at which the system has no angular momentum, since a slew ends at rest (it \
-                 would turn at {:.3} deg/s with the arm stopped)",
-                rate_rad_s.to_degrees()
+                 would turn at {} deg/s with the arm stopped)",
+                Number::rounded(rate_rad_s.to_degrees(), 4)
             ),
         )),
+        (Maneuver::Slew(_), _) if turns => Ok(Some(place.note(format_args!(
+            "the system would turn at {} deg/s with the arm stopped, where a slew starts without \
+             angular momentum: taken for rounding of the rates, and kept",
+            Number::rounded(rate_rad_s.to_degrees(), 2)
+        )))),
         (Maneuver::Detumble, None) if !turns => {
             Err(place.missing("the angular rate that a detumble takes out"))
         }
         (Maneuver::Detumble, Some(_)) if !turns => {
             Err(place.refuse(value, "a vector that is not zero: a detumble takes it out"))
         }
-        _ => Ok(()),
+        _ => Ok(None),
     }
+}
+
+/// ‖Ĩ(q₀)⁻¹ h₀‖, rad/s.
+fn stopped_rate_rad_s(initial: &Initial, system: &SystemDescription) -> f64 {
+    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
+    let arm_at_rest = vec![0.0; system.joint_count()];
+    let model = &system.model;
+    model.reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum).norm()
 }
 
 fn horizon(horizon: &file::Horizon, place: &Location) -> Result<Horizon, Error> {

@@ -4,26 +4,29 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use righting_multibody as multibody;
-use righting_multibody::{ModelError, Part, Quaternion, System};
+use righting_multibody::{Quaternion, System};
 
 use crate::error::Error;
 use crate::file;
+use crate::inertias::Parts;
+use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
-use crate::scenario::Scenario;
+use crate::rounding::COMPUTED;
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
 
-const MASS_KG: Bounds = Bounds::Between(0.0, 1e9);
-const BODY_MASS_KG: Bounds = Bounds::Above(0.0, 1e9);
-const LENGTH_M: Bounds = Bounds::Between(-1e4, 1e4);
-const SIZE_M: Bounds = Bounds::Above(0.0, 1e4);
-const RADIUS_M: Bounds = Bounds::Between(0.0, 1e4);
-const INERTIA_KG_M2: Bounds = Bounds::Between(-1e15, 1e15);
+// As wide as systems in millimeters or kilometers, grams or kilotons need.
+pub(crate) const MASS_KG: Bounds = Bounds::Between(0.0, 1e15);
+const BODY_MASS_KG: Bounds = Bounds::Above(0.0, 1e15);
+const LENGTH_M: Bounds = Bounds::Between(-1e8, 1e8);
+pub(crate) const SIZE_M: Bounds = Bounds::Above(0.0, 1e8);
+const RADIUS_M: Bounds = Bounds::Between(0.0, 1e8);
+const INERTIA_KG_M2: Bounds = Bounds::Between(-1e30, 1e30);
 const DH_ANGLE_DEG: Bounds = Bounds::Between(-360.0, 360.0);
-const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
-const RATE_DEG_S: Bounds = Bounds::Above(0.0, 36_000.0);
-const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 360_000.0);
+
+/// How far the norm of a quaternion may be from 1 by rounding: four printed digits of each entry.
+const UNIT_NORM: f64 = 1e-4;
 
 /// A free-floating base with an arm: masses and geometry, joint limits and keep-out sphere.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,21 +39,8 @@ pub struct SystemDescription {
     pub keep_out_radius_m: f64,
     /// Limits, one a joint.
     pub joint_limits: Vec<JointLimits>,
-    /// Whether a link is part of the mount and so may be inside the keep-out sphere; one a link.
+    /// Whether a link may be inside the keep-out sphere, such as a part of the mount; one a link.
     pub body_exempt: Vec<bool>,
-}
-
-/// What a joint can do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointLimits {
-    /// Smallest angle, rad; −∞ if there is none.
-    pub angle_min_rad: f64,
-    /// Largest angle, rad; +∞ if there is none.
-    pub angle_max_rad: f64,
-    /// Largest rate in magnitude, rad/s.
-    pub rate_max_rad_s: f64,
-    /// Largest acceleration in magnitude, rad/s².
-    pub acceleration_max_rad_s2: f64,
 }
 
 impl SystemDescription {
@@ -59,7 +49,7 @@ impl SystemDescription {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        Self::from_file(&read_system(file)?, &Location::root(file))
+        Self::from_file(&mut read_system(file)?, &Location::root(file), &mut Vec::new())
     }
 
     /// Number of joints j, which is also the number of links.
@@ -67,13 +57,30 @@ impl SystemDescription {
         self.joint_limits.len()
     }
 
-    /// Checks a system that was read from `place`.
-    pub(crate) fn from_file(system: &file::System, place: &Location) -> Result<Self, Error> {
+    /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
+    /// limits ranges over one turn.
+    pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {
+        let ranges = self.joint_limits.iter().zip(unit);
+        ranges
+            .map(|(limits, unit)| {
+                let (low, high) = limits.angle_range_rad();
+                low + (high - low) * unit
+            })
+            .collect()
+    }
+
+    /// Checks a system that was read from `place`; what was accepted with a change is changed in
+    /// `system` too, and noted.
+    pub(crate) fn from_file(
+        system: &mut file::System,
+        place: &Location,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, Error> {
         if system.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
         let (base, keep_out_radius_m) = base(&system.base, &place.key("base"))?;
-        let mount = mount(&system.mount, &place.key("mount"))?;
+        let mount = mount(&system.mount, &place.key("mount"), notes)?;
         let convention = match system.dh_convention {
             file::DhConvention::Standard => multibody::DhConvention::Standard,
             file::DhConvention::Modified => multibody::DhConvention::Modified,
@@ -88,14 +95,15 @@ impl SystemDescription {
         for (index, row) in system.links.iter().enumerate() {
             let place = links_place.index(index);
             links.push(link(row, &place)?);
-            joint_limits.push(limits(row, &place)?);
+            joint_limits.push(JointLimits::from_file(row, &place)?);
         }
         let payload = match &system.payload {
             Some(payload) => Some(self::payload(payload, &place.key("payload"))?),
             None => None,
         };
-        let model = System::new(base, mount, convention, links, payload)
-            .map_err(|error| refuse_model(error, place))?;
+        let parts = Parts { base, mount, convention, links, payload };
+        let model = parts.into_model(system, place, notes)?;
+        notes.extend(doubt_about_frames(system, &links_place));
         Ok(Self {
             name: system.name.clone(),
             model,
@@ -106,17 +114,24 @@ impl SystemDescription {
     }
 }
 
-/// The system of a system file or of a scenario file.
-///
-/// # Errors
-/// As reading either.
-pub fn read_system_or_scenario(file: &Path) -> Result<SystemDescription, Error> {
-    let document = Document::read(file, FileKind::SystemOrScenario)?;
-    if document.has_key("system") {
-        Ok(Scenario::from_file(document.decode()?, file)?.system().clone())
-    } else {
-        SystemDescription::from_file(&document.decode()?, &Location::root(file))
-    }
+/// A remark on a file that looks as if its inertials were in other frames than they are taken in:
+/// those of a Craig table are in the links' own frames, and nobody means to fix link 1 to the base.
+fn doubt_about_frames(system: &file::System, links: &Location) -> Option<String> {
+    let is_modified = system.dh_convention == file::DhConvention::Modified;
+    let is_said = system.links.iter().any(|link| link.inertial_frame.is_some());
+    let is_given = system
+        .links
+        .iter()
+        .any(|link| link.center_of_mass_m.is_some() || link.inertia_kg_m2.is_some());
+    let first_kg = system.links.first().map_or(0.0, |link| link.mass_kg);
+    (is_modified && is_given && !is_said && first_kg > 0.0).then(|| {
+        links.index(0).key("inertial_frame").note(format_args!(
+            "missing, so the {} kg of row 1 are fixed to the base, and the inertials of every row i are \
+             taken in frame i-1; those of Craig tables and ROS files are in frame i: if these are, set \
+             inertial_frame \"own\" on every link (\"previous\" says that they are meant as taken)",
+            Number(first_kg)
+        ))
+    })
 }
 
 /// Reads a system file without checking its values.
@@ -124,15 +139,27 @@ pub(crate) fn read_system(file: &Path) -> Result<file::System, Error> {
     Document::read(file, FileKind::System)?.decode()
 }
 
-/// A unit quaternion w, x, y, z, if it is one to within a millionth.
-pub(crate) fn unit_quaternion(wxyz: [f64; 4], place: &Location) -> Result<Quaternion<f64>, Error> {
+/// A unit quaternion w, x, y, z, if it is one to four printed digits; noted where it is none to
+/// the last one.
+pub(crate) fn unit_quaternion(
+    wxyz: [f64; 4],
+    place: &Location,
+    notes: &mut Vec<String>,
+) -> Result<Quaternion<f64>, Error> {
     place.all_within(wxyz, Bounds::Between(-2.0, 2.0))?;
     let [w, x, y, z] = wxyz;
     let quaternion = Quaternion::from_array(wxyz);
     let norm = quaternion.norm_squared().sqrt();
-    if (norm - 1.0).abs() > 1e-6 {
+    let deviation = (norm - 1.0).abs();
+    if deviation > UNIT_NORM {
         let allowed = format!("a unit quaternion w, x, y, z (this one's norm is {norm})");
         return Err(place.refuse(format!("[{w}, {x}, {y}, {z}]"), allowed));
+    }
+    if deviation > COMPUTED {
+        notes.push(place.note(format_args!(
+            "its norm is {}: taken as a unit quaternion, for rounding",
+            Number::rounded(norm, 9)
+        )));
     }
     Ok(quaternion.normalized())
 }
@@ -169,11 +196,16 @@ fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, f64), E
     }
 }
 
-fn mount(mount: &file::Mount, place: &Location) -> Result<multibody::Mount, Error> {
+fn mount(
+    mount: &file::Mount,
+    place: &Location,
+    notes: &mut Vec<String>,
+) -> Result<multibody::Mount, Error> {
     let position_m = vector(mount.position_m, &place.key("position_m"))?;
     let rotation = match mount.rotation {
         Some(wxyz) => {
-            let rotation = unit_quaternion(wxyz, &place.key("rotation"))?.rotation_matrix();
+            let rotation = unit_quaternion(wxyz, &place.key("rotation"), notes)?;
+            let rotation = rotation.rotation_matrix();
             Rotation3::from_matrix_unchecked(rotation)
         }
         None => Rotation3::identity(),
@@ -190,6 +222,10 @@ fn link(row: &file::Link, place: &Location) -> Result<multibody::Link, Error> {
         alpha_rad: angle("alpha_deg", row.alpha_deg)?.to_radians(),
         d_m: length("d_m", row.d_m)?,
         theta_rad: angle("theta_deg", row.theta_deg)?.to_radians(),
+        inertial_frame: row.inertial_frame.map(|frame| match frame {
+            file::InertialFrame::Own => multibody::InertialFrame::Own,
+            file::InertialFrame::Previous => multibody::InertialFrame::Previous,
+        }),
         center_of_mass_m: row
             .center_of_mass_m
             .map(|center| vector(center, &place.key("center_of_mass_m")))
@@ -198,30 +234,6 @@ fn link(row: &file::Link, place: &Location) -> Result<multibody::Link, Error> {
             .inertia_kg_m2
             .map(|inertia| matrix(&inertia, &place.key("inertia_kg_m2")))
             .transpose()?,
-    })
-}
-
-fn limits(row: &file::Link, place: &Location) -> Result<JointLimits, Error> {
-    let angle = |name: &str, value: Option<f64>, none: f64| match value {
-        Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
-        None => Ok(none),
-    };
-    let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
-    let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
-    if min_deg >= max_deg {
-        let allowed = format!("less than angle_max_deg, {}", Number(max_deg));
-        return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
-    }
-    let rate_place = place.key("rate_max_deg_s");
-    let acceleration_place = place.key("acceleration_max_deg_s2");
-    let rate_max_deg_s = rate_place.within(row.rate_max_deg_s, RATE_DEG_S)?;
-    let acceleration_max_deg_s2 =
-        acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
-    Ok(JointLimits {
-        angle_min_rad: min_deg.to_radians(),
-        angle_max_rad: max_deg.to_radians(),
-        rate_max_rad_s: rate_max_deg_s.to_radians(),
-        acceleration_max_rad_s2: acceleration_max_deg_s2.to_radians(),
     })
 }
 
@@ -244,54 +256,4 @@ fn matrix(rows: &[[f64; 3]; 3], place: &Location) -> Result<Matrix3<f64>, Error>
         place.index(index).all_within(*row, INERTIA_KG_M2)?;
     }
     Ok(Matrix3::from_fn(|row, column| rows[row][column]))
-}
-
-/// Says where in the file a model's fault lies.
-fn refuse_model(error: ModelError, place: &Location) -> Error {
-    let at = |part: Part| match part {
-        Part::Base => place.key("base"),
-        Part::Mount => place.key("mount"),
-        Part::Link(index) => place.key("links").index(index),
-        Part::Payload => place.key("payload"),
-    };
-    match error {
-        ModelError::NotSymmetric { part, row, column, upper, lower } => {
-            let entry = at(part).key("inertia_kg_m2").index(row).index(column);
-            let allowed = format!(
-                "{}, the entry [{column}][{row}]: an inertia matrix is symmetric",
-                Number(lower)
-            );
-            entry.refuse(Number(upper), allowed)
-        }
-        ModelError::NotPositive { part, smallest_kg_m2, zero_allowed } => {
-            let least = if zero_allowed { "zero or more" } else { "more than zero" };
-            let value = format!("a smallest principal moment of {}", Number(smallest_kg_m2));
-            at(part).key("inertia_kg_m2").refuse(value, least)
-        }
-        ModelError::TriangleInequality { part, largest_kg_m2, others_kg_m2 } => {
-            let value = format!("a largest principal moment of {}", Number(largest_kg_m2));
-            let allowed = format!("at most the sum of the other two, {}", Number(others_kg_m2));
-            at(part).key("inertia_kg_m2").refuse(value, allowed)
-        }
-        ModelError::InertiaWithoutMass { part } => {
-            at(part).key("inertia_kg_m2").refuse("an inertia", "none for a link without mass")
-        }
-        ModelError::NotFinite { part, quantity, value } => {
-            at(part).key(quantity).refuse(value, "a finite number")
-        }
-        ModelError::NegativeMass { part, mass_kg } => {
-            at(part).key("mass_kg").refuse(Number(mass_kg), MASS_KG)
-        }
-        ModelError::Overflow { part } => {
-            at(part).refuse("a mass or length this large", "numbers whose products are finite")
-        }
-        ModelError::EmptyChain => place.key("links").refuse("[]", "at least one link"),
-        ModelError::MasslessBase => place.key("base").key("mass_kg").refuse(0, "more than 0"),
-        ModelError::CubeSide { side_m } => {
-            place.key("base").key("cube_side_m").refuse(Number(side_m), SIZE_M)
-        }
-        ModelError::NotARotation { .. } => {
-            place.key("mount").key("rotation").refuse("a reflection", "a unit quaternion")
-        }
-    }
 }

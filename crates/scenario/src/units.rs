@@ -4,8 +4,9 @@ use righting_multibody::{ModelError, Units};
 
 use crate::collision::CollisionModel;
 use crate::initial::Initial;
+use crate::joint_limits::JointLimits;
 use crate::scenario::{Horizon, Scenario, Weights};
-use crate::system_description::{JointLimits, SystemDescription};
+use crate::system_description::SystemDescription;
 
 impl Scenario {
     /// The same maneuver with every number measured in `units` instead of m, kg and s. Its objective has

@@ -186,6 +186,8 @@ fn an_unknown_field_is_named_with_the_nearest_one() {
         ("/system/links/1/angle_max", "angle_max_deg"),
         ("/system/links/1/body_exemt", "body_exempt"),
         ("/system/links/1/center_of_mass", "center_of_mass_m"),
+        ("/system/links/1/inertia_frame", "inertial_frame"),
+        ("/system/project_inertia", "project_inertias"),
     ] {
         let text = with(pointer, json!(1)).to_string();
         assert_complains(&text, &path_of(pointer), &format!("did you mean `{nearest}`?"));
@@ -236,7 +238,7 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/initial/joint_angles_deg", json!([0, 0, 0]), "an array of 4, one a joint"),
         ("/initial/joint_angles_deg", json!([0, 0, 0, 0, 0]), "an array of 4, one a joint"),
         ("/initial/joint_angles_deg/1", json!(91), "-90 to 90, the limits of joint 2"),
-        ("/initial/joint_angles_deg/2", json!(-50.001), "-50 to 50, the limits of joint 3"),
+        ("/initial/joint_angles_deg/2", json!(-50.002), "-50 to 50, the limits of joint 3"),
         ("/initial/joint_angles_deg/0", json!(1e308), "found 1e308, expected"),
         ("/initial/joint_rates_deg_s", json!([0]), "an array of 4, one a joint"),
         ("/initial/angular_rate_deg_s", json!([0, 0]), "an array of 3"),
@@ -262,14 +264,22 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/system/links/3/alpha_deg", json!(361), "from -360 to 360"),
         ("/system/links/3/d_m", json!(-1e308), "found -1e308, expected"),
         ("/system/links/3/theta_deg", json!(1e9), "from -360 to 360"),
-        ("/system/links/3/angle_min_deg", json!(35), "less than angle_max_deg, 35"),
-        ("/system/links/3/angle_min_deg", json!(90), "less than angle_max_deg, 35"),
+        ("/system/links/3/angle_min_deg", json!(35.5), "at most angle_max_deg, 35"),
+        ("/system/links/3/angle_min_deg", json!(90), "at most angle_max_deg, 35"),
         ("/system/links/3/angle_max_deg", json!(1e308), "found 1e308, expected"),
         ("/system/links/3/rate_max_deg_s", json!(0), "above 0"),
         ("/system/links/3/rate_max_deg_s", json!(-17.2), "above 0"),
         ("/system/links/3/acceleration_max_deg_s2", json!(0), "above 0"),
         ("/system/links/3/center_of_mass_m", json!([0, 0]), "an array of 3"),
         ("/system/links/3/inertia_kg_m2", json!([[1, 0, 0], [0, 1, 0]]), "an array of 3"),
+        (
+            "/system/links/3/inertial_frame",
+            json!("Own"),
+            "found \"Own\", expected \"own\" or \"previous\"; did you mean \"own\"?",
+        ),
+        ("/system/links/3/inertial_frame", json!(3), "expected \"own\" or \"previous\""),
+        ("/system/project_inertias", json!("yes"), "found \"yes\", expected true or false"),
+        ("/system/project_inertias", json!(1), "found 1, expected true or false"),
         ("/system/payload", json!({ "mass_kg": -1 }), ""),
     ] {
         let path = match path_of(pointer).as_str() {
@@ -374,20 +384,37 @@ fn fields_that_contradict_each_other_are_refused() {
         (
             vec![("/system/links/0/body_exempt", json!(false))],
             "initial.joint_angles_deg",
-            "set its body_exempt",
+            "found a start with link 1 0.25 m from the base's center of mass, expected at least \
+             0.443013 m, keep-out radius and clearance (or set system.links[0].body_exempt)",
         ),
         (
             vec![("/initial/joint_angles_deg", json!([0, 90, 50, 35]))],
             "initial.joint_angles_deg",
-            "a start with link 4 0.4366 m from the base's center of mass",
+            "found a start with link 4 0.436551 m from the base's center of mass",
         ),
         (
             vec![
-                ("/collision/clearance_m", json!(0.26)),
-                ("/system/base/keep_out_radius_m", json!(0.2)),
+                ("/system/links/2/angle_max_deg", json!(170)),
+                ("/initial/joint_angles_deg", json!([0, 0, 170, 0])),
+                ("/collision/clearance_m", json!(0.05)),
             ],
             "initial.joint_angles_deg",
-            "found a start with links 1 and 3 0.2500 m apart, expected at least the clearance, 0.26 m",
+            "found a start with link 4 0.271835 m from the base's center of mass, links 1 and 3 0.043412 \
+             m apart, links 1 and 4 0.0435779 m apart, links 2 and 4 0.043412 m apart, expected at least \
+             0.483013 m, keep-out radius and clearance, and between links the clearance, 0.05 m (or set \
+             system.links[3].body_exempt, and collision.clearance_m to 0.0434)",
+        ),
+        (
+            vec![
+                ("/system/links/2/angle_max_deg", json!(170)),
+                ("/initial/joint_angles_deg", json!([0, 0, 170, 0])),
+                ("/collision/clearance_m", json!(0.05)),
+                ("/system/base/keep_out_radius_m", json!(0.22)),
+            ],
+            "initial.joint_angles_deg",
+            "found a start with links 1 and 3 0.043412 m apart, links 1 and 4 0.0435779 m apart, links 2 \
+             and 4 0.043412 m apart, expected at least the clearance, 0.05 m (or set \
+             collision.clearance_m to 0.0434)",
         ),
         (vec![("/solver/guess", json!({ "starts": 0 }))], "solver.guess.starts", "from 1 to 1000"),
         (vec![("/solver/guess", json!({ "starts": -1 }))], "solver.guess.starts", "a whole number"),

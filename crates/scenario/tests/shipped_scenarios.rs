@@ -172,6 +172,20 @@ fn the_schemas_accept_what_ships_and_refuse_what_the_reader_refuses() {
         *bad.pointer_mut(pointer).unwrap() = value;
         assert!(violation(&scenario_schema, &bad).is_some(), "{pointer}");
     }
+    let system = json(&scenarios().join("systems/xlink_4dof.json"));
+    for (pointer, key, value, is_accepted) in [
+        ("/links/2", "inertial_frame", Value::from("own"), true),
+        ("/links/2", "inertial_frame", Value::from("previous"), true),
+        ("/links/2", "inertial_frame", Value::from("next"), false),
+        ("", "project_inertias", Value::from(true), true),
+        ("", "project_inertias", Value::from("yes"), false),
+        ("", "project_inertia", Value::from(true), false),
+    ] {
+        let mut changed = system.clone();
+        changed.pointer_mut(pointer).unwrap()[key] = value.clone();
+        let violation = violation(&system_schema, &changed);
+        assert_eq!(violation.is_none(), is_accepted, "{pointer} {key} {value}: {violation:?}");
+    }
     let mut unknown = good.clone();
     unknown["horizon"]["step"] = Value::from(600);
     assert!(violation(&scenario_schema, &unknown).is_some());

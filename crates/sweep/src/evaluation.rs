@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use righting_ocp::Control;
-use righting_planner::{Planned, Planner};
+use righting_planner::{PlanError, Planned, Planner};
 use righting_results::{Status, Trajectory};
 use righting_scenario::Scenario;
 use righting_verifier::simulate;
@@ -77,8 +77,14 @@ impl Evaluator {
 
     fn plan(&self, scenario: &Scenario) -> Result<Planned, Outcome> {
         // Cases are what runs in parallel, not the starts of one.
-        let mut planner = Planner::new().threads(NonZeroUsize::MIN).time_limit(self.time_limit);
+        let mut planner = Planner::new()
+            .without_remedies()
+            .threads(NonZeroUsize::MIN)
+            .time_limit(self.time_limit);
         match planner.plan(scenario, &mut |_| Control::Continue) {
+            Err(PlanError::Impossible(reason)) => {
+                Err(Outcome::of_trouble(Trouble::Impossible, reason.to_string()))
+            }
             Err(error) => Err(Outcome::of_trouble(Trouble::NotPlanned, error.to_string())),
             Ok(planned) if planned.solution.status == Status::TimeLimit => {
                 Err(Outcome::out_of_time(self.time_limit.as_secs_f64()))

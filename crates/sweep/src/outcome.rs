@@ -61,6 +61,8 @@ pub enum Trouble {
     Refused,
     /// There is no plan to fly or nothing to optimize.
     NotPlanned,
+    /// No motion of the arm makes the maneuver.
+    Impossible,
     /// Its worker died, twice.
     Crashed,
     /// Its worker did not answer long after the time limit, twice.
@@ -137,6 +139,7 @@ mod tests {
             (CaseStatus::Optimizer(Status::IterationLimit), "iteration_limit"),
             (CaseStatus::Flown(Flown::Flown), "flown"),
             (CaseStatus::Trouble(Trouble::NotPlanned), "not_planned"),
+            (CaseStatus::Trouble(Trouble::Impossible), "impossible"),
         ] {
             assert_eq!(status.to_string(), word);
             let text = serde_json::to_string(&status).unwrap();

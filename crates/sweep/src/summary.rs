@@ -158,6 +158,10 @@ fn cause(row: &Row, reason: &str) -> String {
         CaseStatus::Optimizer(status) if !status.is_acceptable() => row.status.to_string(),
         CaseStatus::Optimizer(_) | CaseStatus::Flown(_) => format!("not verified: {first}"),
         CaseStatus::Trouble(Trouble::Refused) => format!("refused: {first}"),
+        CaseStatus::Trouble(Trouble::Impossible) => {
+            let first = reason.split("; ").next().unwrap_or_default();
+            format!("{}: {first}", row.status)
+        }
         CaseStatus::Trouble(_) => format!("{}: {reason}", row.status),
     }
 }

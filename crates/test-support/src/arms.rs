@@ -37,28 +37,35 @@ fn angle_deg() -> impl Strategy<Value = f64> {
     ]
 }
 
+/// None, almost none, little, or some.
 fn length_m() -> impl Strategy<Value = f64> {
-    prop_oneof![1 => Just(0.0), 2 => -1.0..1.0_f64]
+    prop_oneof![4 => Just(0.0), 1 => -1e-12..1e-12_f64, 1 => -0.02..0.02_f64, 8 => -1.0..1.0_f64]
 }
 
 fn link() -> impl Strategy<Value = file::Link> {
     let mass_kg = prop_oneof![1 => Just(0.0), 4 => 0.1..8.0_f64];
     let center = prop::option::of(prop::array::uniform3(-0.4..0.4_f64));
     let own = prop::option::of(inertia(0.5));
-    (mass_kg, length_m(), angle_deg(), length_m(), angle_deg(), center, own).prop_map(
-        |(mass_kg, a_m, alpha_deg, d_m, theta_deg, center_of_mass_m, inertia_kg_m2)| file::Link {
-            mass_kg,
-            a_m,
-            alpha_deg,
-            d_m,
-            theta_deg,
-            angle_min_deg: None,
-            angle_max_deg: None,
-            rate_max_deg_s: 1000.0,
-            acceleration_max_deg_s2: 1000.0,
-            body_exempt: false,
-            center_of_mass_m,
-            inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
+    let frame = prop::option::of(Just(file::InertialFrame::Own));
+    (mass_kg, length_m(), angle_deg(), length_m(), angle_deg(), center, own, frame).prop_map(
+        |(mass_kg, a_m, alpha_deg, d_m, theta_deg, center_of_mass_m, inertia_kg_m2, frame)| {
+            file::Link {
+                mass_kg,
+                a_m,
+                alpha_deg,
+                d_m,
+                theta_deg,
+                angle_min_deg: None,
+                angle_max_deg: None,
+                rate_max_deg_s: 1000.0,
+                acceleration_max_deg_s2: 1000.0,
+                body_exempt: false,
+                // In its own frame a mass needs both.
+                inertial_frame: frame
+                    .filter(|_| center_of_mass_m.is_some() && inertia_kg_m2.is_some()),
+                center_of_mass_m,
+                inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
+            }
         },
     )
 }
@@ -94,6 +101,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                 mount: file::Mount { position_m, rotation },
                 dh_convention,
                 links,
+                project_inertias: false,
                 payload,
             };
             let scenario = file::Scenario {

@@ -170,6 +170,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         timing_s: Timing::default(),
         verification: verify(scenario, trajectory),
         bound_deg_s: None,
+        stopped_deg_s: None,
         reduction_percent: None,
         notes: Vec::new(),
         attempts: Vec::new(),

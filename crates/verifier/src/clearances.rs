@@ -7,10 +7,14 @@ use righting_scenario::file;
 use crate::ledger::{Subject, Worst};
 use crate::model::Segment;
 
+/// A length below this part of the arm's is none.
+const ROUNDING: f64 = 1e-9;
+
 /// Which links keep how far from the base and from each other.
 ///
-/// A link is the straight segment between its two origins. One without length collides with nothing;
-/// two links share a joint when every link between them has no length.
+/// A link is the straight segment between its two origins. One without length, or with a rounding of
+/// none, collides with nothing. Two links between which the arm is no longer than the clearance can
+/// never be that far apart: they share a joint.
 #[derive(Clone, Debug)]
 pub(super) struct Clearances {
     /// Links that keep away from the base, counted from zero.
@@ -25,15 +29,20 @@ pub(super) struct Clearances {
 
 impl Clearances {
     pub fn new(system: &file::System, clearance_m: f64) -> Self {
-        let has_length =
-            |link: usize| system.links[link].a_m != 0.0 || system.links[link].d_m != 0.0;
-        let links = system.links.len();
-        let solid: Vec<usize> = (0..links).filter(|&link| has_length(link)).collect();
-        // With nothing solid between them, neighbours among the solid links share a joint.
-        let link_pairs = (0..solid.len())
-            .flat_map(|a| (a + 2..solid.len()).map(move |b| (a, b)))
-            .map(|(a, b)| (solid[a], solid[b]))
-            .collect();
+        let lengths_m: Vec<f64> =
+            system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
+        let rounding_m = ROUNDING * lengths_m.iter().sum::<f64>();
+        let solid: Vec<usize> =
+            (0..lengths_m.len()).filter(|&link| lengths_m[link] > rounding_m).collect();
+        let mut link_pairs = Vec::new();
+        for (nth, &inboard) in solid.iter().enumerate() {
+            for &outboard in &solid[nth + 1..] {
+                let between_m: f64 = lengths_m[inboard + 1..outboard].iter().sum();
+                if between_m > clearance_m && between_m > rounding_m {
+                    link_pairs.push((inboard, outboard));
+                }
+            }
+        }
         let exempt = |link: &usize| system.links[*link].body_exempt;
         // Half the space diagonal of a cube.
         let circumscribed_m = |side_m: f64| Vector3::repeat(side_m / 2.0).norm();
@@ -47,6 +56,20 @@ impl Clearances {
             link_pairs,
             least_from_body_m: keep_out_m + clearance_m,
             least_between_links_m: clearance_m,
+        }
+    }
+
+    /// Every distance that is kept.
+    pub fn all(&self) -> impl Iterator<Item = Between> + '_ {
+        let body = self.body_links.iter().map(|&link| Between::LinkAndBody(link));
+        body.chain(self.link_pairs.iter().map(|&(a, b)| Between::Links(a, b)))
+    }
+
+    /// The least that is allowed, m.
+    pub fn least_m(&self, between: Between) -> f64 {
+        match between {
+            Between::LinkAndBody(_) => self.least_from_body_m,
+            Between::Links(..) => self.least_between_links_m,
         }
     }
 

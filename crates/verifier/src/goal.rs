@@ -1,26 +1,26 @@
 //! What the end of a maneuver shall be, and what it is.
 
-use nalgebra::{Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 use righting_results::solution::Terminal;
 use righting_scenario::file;
 
-use crate::model::State;
+use crate::model::{BaseAcceleration, Model, Motion, State};
 
 /// What the end shall be.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
     /// At rest in an attitude, body → inertial.
     Attitude(UnitQuaternion<f64>),
-    /// With the arm at rest and the base turning slower than at the start.
+    /// With the arm at rest and the base turning slower than it would with the arm simply stopped.
     LessRate {
-        /// The norm of the base's rate at the start, deg/s.
-        start_deg_s: f64,
+        /// The norm of the base's rate once the arm is stopped in its posture at the start, deg/s.
+        stopped_deg_s: f64,
     },
 }
 
 impl Goal {
     /// Of a resolved scenario that starts in the state `start`.
-    pub fn new(maneuver: &file::Maneuver, start: &State<'_>) -> Self {
+    pub fn new(maneuver: &file::Maneuver, model: &Model, start: &State<'_>) -> Self {
         match maneuver.kind {
             file::ManeuverType::Slew => {
                 // A slew without them was refused when the scenario was read.
@@ -30,7 +30,7 @@ impl Goal {
                 Self::Attitude(UnitQuaternion::from_quaternion(start.attitude) * turn)
             }
             file::ManeuverType::Detumble => {
-                Self::LessRate { start_deg_s: start.angular_rate.norm().to_degrees() }
+                Self::LessRate { stopped_deg_s: stopped_rate(model, start).norm().to_degrees() }
             }
         }
     }
@@ -53,4 +53,21 @@ impl Goal {
             joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
         }
     }
+}
+
+/// The base's rate, body axes, once the joints have stopped where they are in the state `start`: angular
+/// momentum, which stopping them does not change, is linear in the rate of a rigid body.
+fn stopped_rate(model: &Model, start: &State<'_>) -> Vector3<f64> {
+    let still = vec![0.0; model.joint_count()];
+    let mut motion = Motion::new(model);
+    let mut momentum = |state: &State<'_>| {
+        motion.set(model, state, &BaseAcceleration::default(), &still);
+        motion.angular_momentum()
+    };
+    let kept = momentum(start);
+    let of_rate = |angular_rate| State { angular_rate, joint_rates: &still, ..*start };
+    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|unit| momentum(&of_rate(unit)));
+    // A body of any extent has an inverse; where rounding leaves none, nothing is slower than infinity.
+    let inverse = Matrix3::from_columns(&columns).try_inverse();
+    inverse.map_or_else(|| Vector3::repeat(f64::INFINITY), |inverse| inverse * kept)
 }

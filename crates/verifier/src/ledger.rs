@@ -5,6 +5,10 @@ use std::fmt;
 use righting_results::verification::{Check, Sense, Verification};
 use righting_scenario::collision::Between;
 
+/// How much worse than the worst place so far another has to be to be worth finding, as a share of the
+/// tolerance, where the check fails anyway.
+const RESOLUTION: f64 = 0.1;
+
 /// The checks made so far.
 #[derive(Debug, Default)]
 pub(super) struct Ledger {
@@ -80,6 +84,16 @@ impl Worst {
         time_s: Option<f64>,
     ) {
         self.look(Place { value, limit, sense: Sense::AtLeast, subject, time_s });
+    }
+
+    /// Which values that must not fall below `limit` still count: those that fail, and where the check
+    /// fails already those that are worse.
+    pub fn counts_below(&self, limit: f64) -> f64 {
+        let fails_below = limit - self.tolerance;
+        match self.place {
+            Some(worst) if worst.value < fails_below => worst.value - RESOLUTION * self.tolerance,
+            _ => fails_below,
+        }
     }
 
     /// The value at the worst place; 0 if there was nothing to look at.

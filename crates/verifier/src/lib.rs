@@ -13,8 +13,9 @@
 //!
 //! Tolerances are part of every [`Check`](righting_results::Check) and so of every report:
 //!
-//! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes, where a plan has no
-//!   constraints, joint angles and clearances to 1e-3;
+//! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes joint angles and
+//!   clearances to 1e-3. Clearances are looked at as closely as the motion asks for: nothing is
+//!   missed between two places, however fast two links pass each other;
 //! - the plan's own integration error, one step of a fourth-order method an interval, may reach
 //!   1e-4 rad in attitude, a twentieth of what a slew may miss its target by. In momentum that is
 //!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
@@ -55,12 +56,15 @@
 #![forbid(unsafe_code)]
 
 mod clearances;
+mod closest_approach;
 mod directory;
 mod dormand_prince;
 mod goal;
+mod joints;
 mod ledger;
 mod limits;
 pub mod model;
+mod motion_bound;
 mod requirements;
 mod simulation;
 mod tolerances;

@@ -3,13 +3,14 @@
 use nalgebra::Vector3;
 use righting_results::trajectory::Trajectory;
 
+use crate::closest_approach::{ClosestApproach, Interval};
+use crate::joints::Joints;
 use crate::ledger::{Ledger, Subject, Worst};
-use crate::model::State;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 use crate::tolerances::LimitTolerances;
 
-/// Places looked at within an interval.
+/// Places looked at within an interval, at least.
 const SAMPLES: usize = 10;
 
 /// Worst places of the quantities that have limits.
@@ -21,12 +22,6 @@ struct Limits<'a> {
     links: Worst,
     /// Origins of the arm's frames in the posture looked at last.
     origins: Vec<Vector3<f64>>,
-}
-
-/// Joint angles and rates under constant acceleration.
-struct Joints {
-    angles: Vec<f64>,
-    rates: Vec<f64>,
 }
 
 pub(super) fn check(
@@ -55,8 +50,9 @@ pub(super) fn check(
     let mut acceleration =
         Worst::new("joint acceleration", "rad/s²", asked.tolerances.at_nodes.acceleration_rad_s2);
     let mut joints = Joints::new(asked.joint_limits.len());
-    for (k, (interval, state)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate()
-    {
+    let mut approach = ClosestApproach::new(asked, &simulation.start());
+    let states = simulation.nodes().zip(simulation.nodes().skip(1));
+    for (k, (interval, (state, next))) in trajectory.intervals().iter().zip(states).enumerate() {
         let control = &interval.joint_accelerations_rad_s2;
         let start_s = asked.horizon.time_s(k);
         let duration_s = asked.horizon.time_s(k + 1) - start_s;
@@ -69,6 +65,9 @@ pub(super) fn check(
             joints.move_on(&state, control, after_s);
             between.look(&joints.angles, &joints.rates, start_s + after_s);
         }
+        let interval =
+            Interval { start: state, end: next, accelerations: control, start_s, duration_s };
+        approach.follow(&interval, &mut between.body, &mut between.links);
         for (joint, rate) in state.joint_rates.iter().enumerate() {
             // A joint that turns back within the interval goes farthest between two samples.
             let after_s = -rate / control[joint];
@@ -91,22 +90,6 @@ pub(super) fn check(
 /// Times within an interval, its ends left out.
 fn sampled(duration_s: f64) -> impl Iterator<Item = f64> {
     (1..=SAMPLES).map(move |i| duration_s * i as f64 / (SAMPLES + 1) as f64)
-}
-
-impl Joints {
-    fn new(count: usize) -> Self {
-        Self { angles: vec![0.0; count], rates: vec![0.0; count] }
-    }
-
-    /// From `state`, `after_s` later.
-    fn move_on(&mut self, state: &State<'_>, control: &[f64], after_s: f64) {
-        for (joint, acceleration) in control.iter().enumerate() {
-            let (angle, rate) = (state.joint_angles[joint], state.joint_rates[joint]);
-            let gained = acceleration * after_s;
-            self.angles[joint] = angle + (rate + 0.5 * gained) * after_s;
-            self.rates[joint] = rate + gained;
-        }
-    }
 }
 
 impl<'a> Limits<'a> {

@@ -7,7 +7,8 @@ use righting_scenario::scenario::{Horizon, Scenario};
 use crate::clearances::Clearances;
 use crate::goal::Goal;
 use crate::model::{BaseAcceleration, Model, Motion, State};
-use crate::tolerances::Tolerances;
+use crate::motion_bound::Reach;
+use crate::tolerances::{Measures, Tolerances};
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]
@@ -20,7 +21,9 @@ pub(super) struct Requirements {
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
     pub clearances: Clearances,
+    pub reach: Reach,
     pub tolerances: Tolerances,
+    pub measures: Measures,
     /// Whether the end is met as well as numbers allow.
     pub is_end_hard: bool,
 }
@@ -51,11 +54,13 @@ impl Requirements {
                 duration_s,
                 State::from_slice(&start).angular_rate.norm(),
             ),
+            measures: Measures::new(size_m(system), model.total_mass(), duration_s),
             is_end_hard: file.end.as_ref().and_then(|end| end.hard).unwrap_or(false),
-            goal: Goal::new(&file.maneuver, &State::from_slice(&start)),
+            goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             clearances: Clearances::new(system, clearance_m),
+            reach: Reach::new(system),
             model,
             start,
         }

@@ -47,6 +47,11 @@ impl Simulation {
         self.states.chunks_exact(self.dimension).map(State::from_slice)
     }
 
+    /// The state at the first node.
+    pub fn start(&self) -> State<'_> {
+        State::from_slice(&self.states[..self.dimension])
+    }
+
     /// The state at the last node.
     pub fn end(&self) -> State<'_> {
         State::from_slice(&self.states[self.states.len() - self.dimension..])

@@ -36,6 +36,25 @@ pub(super) struct Tolerances {
     pub between_nodes: LimitTolerances,
 }
 
+/// What torques and rates of a maneuver are compared with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Measures {
+    /// The system's mass times the square of its size and of one over the duration.
+    pub torque_n_m: f64,
+    /// A thousandth of a turn through one radian in a thirtieth of the duration.
+    pub rate_rad_s: f64,
+}
+
+impl Measures {
+    /// Of a system of this size and mass in a maneuver of this duration.
+    pub fn new(size_m: f64, mass_kg: f64, duration_s: f64) -> Self {
+        Self {
+            torque_n_m: mass_kg * (size_m / duration_s).powi(2),
+            rate_rad_s: 1e-3 * DURATION_S / duration_s,
+        }
+    }
+}
+
 /// How far a limit may be passed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LimitTolerances {

@@ -12,7 +12,7 @@ use crate::limits;
 use crate::model::{BaseAcceleration, Motion, State};
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
-use crate::tolerances::{Tolerances, at_rest_deg_s};
+use crate::tolerances::{Measures, Tolerances, at_rest_deg_s};
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;
@@ -28,6 +28,8 @@ pub const TRADED_DETUMBLE_AT_REST: f64 = 0.05;
 
 const MOMENTUM: f64 = 1e-4;
 const TORQUE: f64 = 1e-6;
+/// Torques below this share of what moves the system once in the maneuver's duration are none.
+const NO_TORQUE: f64 = 1e-3;
 
 /// Checks a trajectory against its scenario. See the [crate] for what is checked and how.
 ///
@@ -197,8 +199,9 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
     let largest_n_m = largest(&mut torques.iter());
     let fastest_rad_s =
         largest(&mut trajectory.nodes().iter().flat_map(|node| &node.joint_rates_rad_s));
-    let tolerance_n_m = TORQUE * largest_n_m;
-    let tolerance_w = tolerance_n_m * fastest_rad_s * joints as f64;
+    let Measures { torque_n_m, rate_rad_s } = asked.measures;
+    let tolerance_n_m = TORQUE * largest_n_m.max(NO_TORQUE * torque_n_m);
+    let tolerance_w = tolerance_n_m * fastest_rad_s.max(rate_rad_s) * joints as f64;
     let mut torque = Worst::new("joint torque mismatch", "N m", 0.0);
     let mut power = Worst::new("power mismatch", "W", 0.0);
     for (k, (node, torques)) in
@@ -235,12 +238,12 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
             let rest_deg_s = at_rest_deg_s(SLEW_AT_REST_DEG_S, asked.horizon.duration_s);
             (rest_deg_s, rest_deg_s)
         }
-        Goal::LessRate { start_deg_s } => {
+        Goal::LessRate { stopped_deg_s } => {
             let share = match asked.is_end_hard {
                 true => DETUMBLE_AT_REST,
                 false => TRADED_DETUMBLE_AT_REST,
             };
-            (start_deg_s, share * start_deg_s)
+            (stopped_deg_s, share * stopped_deg_s)
         }
     };
     single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);

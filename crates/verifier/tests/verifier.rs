@@ -327,8 +327,42 @@ fn the_objective_is_the_one_of_the_weights() {
         .map(|u| u * u)
         .sum();
     let cost = objective(&scenario, &trajectory);
-    assert!((cost - 0.01 * effort).abs() < 1e-12, "at rest at the target only effort is left");
+    // The weight is that of the integral, over 0.05 s.
+    let weighted = 0.01 * effort * scenario.horizon().step_s() / 0.05;
+    assert!((cost - weighted).abs() < 1e-12, "at rest at the target only effort is left");
     let heavier = varied(&scenario, |file| file.weights.joint_angle = Some(2.0));
     let moved: f64 = trajectory.end().joint_angles_rad.iter().map(|angle| angle * angle).sum();
     assert!((objective(&heavier, &trajectory) - cost - 2.0 * moved).abs() < 1e-12);
+}
+
+/// With the arm moving at the start, the base's first rate says nothing: stopping the arm leaves what
+/// momentum has, and that is what a detumble is judged by.
+#[test]
+fn a_detumble_is_judged_against_stopping_the_arm() {
+    let scenario = varied(&shipped("detumble_4dof"), |file| {
+        file.initial.joint_rates_deg_s = Some(vec![10.0, -5.0, 8.0, 3.0]);
+        file.horizon.steps = 60.0;
+    });
+    let initial = scenario.initial();
+    let model = &scenario.system().model;
+    let momentum = initial.attitude.to_body(&initial.angular_momentum_n_m_s);
+    let still = [0.0; 4];
+    let angles = &initial.joint_angles_rad;
+    let expected = model.reduced_angular_rate(angles, &still, &momentum).norm().to_degrees();
+    let first = initial.angular_rate_rad_s.norm().to_degrees();
+    assert!((expected - first).abs() > 0.1, "{expected} {first}");
+
+    let idle = motion(&scenario, &vec![vec![0.0; 4]; 60]);
+    let verification = verify(&scenario, &idle);
+    let check = verification.check("angular rate at the end").unwrap();
+    assert!((check.limit - expected).abs() < 1e-9, "{} {expected}", check.limit);
+    let reached = Terminal::reached(&scenario, &idle);
+    let percent = 100.0 * (1.0 - reached.angular_rate_deg_s / expected);
+    assert!((reached.reduction_percent(&scenario) - percent).abs() < 1e-9);
+
+    // With the arm at rest it is the first rate.
+    let at_rest = varied(&scenario, |file| file.initial.joint_rates_deg_s = None);
+    let verification = verify(&at_rest, &motion(&at_rest, &vec![vec![0.0; 4]; 60]));
+    let check = verification.check("angular rate at the end").unwrap();
+    assert!((check.limit - first).abs() < 1e-9, "{} {first}", check.limit);
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Vector3};
 use num_dual::{Dual64, HyperDual64};
 use righting_multibody::System;
-use righting_scenario::system_description::JointLimits;
+use righting_scenario::JointLimits;
 
 /// What an envelope is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +42,18 @@ struct Map {
 impl Arm<'_> {
     pub fn joints(&self) -> usize {
         self.limits.len()
+    }
+
+    /// Largest rate of a joint, rad/s: none of a locked one.
+    pub fn rate_max_rad_s(&self, joint: usize) -> f64 {
+        let limits = &self.limits[joint];
+        if limits.is_locked() { 0.0 } else { limits.rate_max_rad_s }
+    }
+
+    /// Largest acceleration of a joint, rad/s²: none of a locked one.
+    pub fn acceleration_max_rad_s2(&self, joint: usize) -> f64 {
+        let limits = &self.limits[joint];
+        if limits.is_locked() { 0.0 } else { limits.acceleration_max_rad_s2 }
     }
 
     /// Joint angles at fractions 0…1 of their ranges; a joint without limits ranges over ±π.
@@ -83,10 +95,8 @@ impl Arm<'_> {
         match of {
             Quantity::Momentum => {
                 let columns = self.model.momentum_map(&angles).joint_columns;
-                let signed = |(i, limits): (usize, &JointLimits)| {
-                    limits.rate_max_rad_s.copysign(direction.dot(&columns.column(i)))
-                };
-                let rates: Vec<f64> = self.limits.iter().enumerate().map(signed).collect();
+                let signed = |i| self.rate_max_rad_s(i).copysign(direction.dot(&columns.column(i)));
+                let rates: Vec<f64> = (0..joints).map(signed).collect();
                 let terms = rates.iter().enumerate().map(|(i, rate)| columns.column(i) * *rate);
                 let vector = terms.sum();
                 Motion { angles, rates, accelerations: vec![0.0; joints], vector }
@@ -95,13 +105,13 @@ impl Arm<'_> {
                 let Map { columns, slopes } = self.map(&angles);
                 let accelerations: Vec<f64> = columns
                     .iter()
-                    .zip(self.limits)
-                    .map(|(b, limits)| limits.acceleration_max_rad_s2.copysign(direction.dot(b)))
+                    .enumerate()
+                    .map(|(i, b)| self.acceleration_max_rad_s2(i).copysign(direction.dot(b)))
                     .collect();
                 let form = DMatrix::from_fn(joints, joints, |k, i| {
                     0.5 * direction.dot(&(slopes[k][i] + slopes[i][k]))
                 });
-                let largest: Vec<f64> = self.limits.iter().map(|l| l.rate_max_rad_s).collect();
+                let largest: Vec<f64> = (0..joints).map(|i| self.rate_max_rad_s(i)).collect();
                 let rates = super::quadratic::largest_in_box(&form, &largest);
                 let mut vector: Vector3<f64> =
                     columns.iter().zip(&accelerations).map(|(b, u)| b * *u).sum();

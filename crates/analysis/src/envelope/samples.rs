@@ -19,9 +19,8 @@ pub(super) fn draw(arm: Arm<'_>, count: usize, seed: u64) -> [Vec<Vector3<f64>>;
             (0..arm.joints()).map(draw).collect()
         };
         let angles = several(&|i| range(&arm.limits[i]));
-        let rates = several(&|i| [-1.0, 1.0].map(|s| s * arm.limits[i].rate_max_rad_s));
-        let accelerations =
-            several(&|i| [-1.0, 1.0].map(|s| s * arm.limits[i].acceleration_max_rad_s2));
+        let rates = several(&|i| [-1.0, 1.0].map(|s| s * arm.rate_max_rad_s(i)));
+        let accelerations = several(&|i| [-1.0, 1.0].map(|s| s * arm.acceleration_max_rad_s2(i)));
         (arm.momentum(&angles, &rates), arm.torque(&angles, &rates, &accelerations))
     };
     let (momenta, torques) = (0..count).map(motion).unzip();

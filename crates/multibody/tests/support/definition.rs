@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
-use righting_multibody::{DhConvention, Link, System};
+use righting_multibody::{DhConvention, InertialFrame, Link, System};
 use righting_scalar::Scalar;
 
 /// A rigid body seen from the body frame.
@@ -99,9 +99,9 @@ pub fn bodies<T: Scalar>(system: &System, q: &[T]) -> Vec<Body<T>> {
         inertia: system.base().inertia_kg_m2,
     }];
     for (i, link) in system.links().iter().enumerate() {
-        let own = match system.convention() {
-            DhConvention::Standard => &poses[i + 1],
-            DhConvention::Modified => &poses[i],
+        let own = match (system.convention(), link.inertial_frame) {
+            (_, Some(InertialFrame::Own)) | (DhConvention::Standard, None) => &poses[i + 1],
+            (_, Some(InertialFrame::Previous)) | (DhConvention::Modified, None) => &poses[i],
         };
         let (inboard, outboard) = (poses[i].position, poses[i + 1].position);
         let segment = own.seen(&outboard) - own.seen(&inboard);

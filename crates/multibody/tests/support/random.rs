@@ -3,7 +3,9 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use righting_multibody::{Base, DhConvention, Link, Mount, Payload, Quaternion, State, System};
+use righting_multibody::{
+    Base, DhConvention, InertialFrame, Link, Mount, Payload, Quaternion, State, System,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
@@ -40,17 +42,23 @@ fn length() -> impl Strategy<Value = f64> {
 
 fn link() -> impl Strategy<Value = Link> {
     let mass = prop_oneof![1 => Just(0.0), 4 => 0.1..8.0_f64];
+    let frame = prop::option::of(Just(InertialFrame::Own));
     let shape = prop_oneof![
         3 => Just((None, None)),
         1 => vector(0.4).prop_map(|center| (Some(center), None)),
         1 => inertia(0.5).prop_map(|matrix| (None, Some(matrix))),
-        1 => (vector(0.4), inertia(0.5)).prop_map(|(center, matrix)| (Some(center), Some(matrix))),
+        2 => (vector(0.4), inertia(0.5)).prop_map(|(center, matrix)| (Some(center), Some(matrix))),
     ];
-    (mass, length(), angle(), length(), angle(), shape).prop_map(
-        |(mass_kg, a_m, alpha_rad, d_m, theta_rad, (center_of_mass_m, inertia_kg_m2))| Link {
-            center_of_mass_m,
-            inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
-            ..Link::rod(mass_kg, a_m, alpha_rad, d_m, theta_rad)
+    (mass, length(), angle(), length(), angle(), shape, frame).prop_map(
+        |(mass_kg, a_m, alpha_rad, d_m, theta_rad, (center_of_mass_m, inertia_kg_m2), frame)| {
+            // A frame of its own is for a link that says where it is in that.
+            let is_given = center_of_mass_m.is_some() && inertia_kg_m2.is_some();
+            Link {
+                inertial_frame: frame.filter(|_| is_given && mass_kg > 0.0),
+                center_of_mass_m,
+                inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
+                ..Link::rod(mass_kg, a_m, alpha_rad, d_m, theta_rad)
+            }
         },
     )
 }

@@ -37,7 +37,7 @@ impl Coordinates {
         );
         let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
         let limits = scenario.system().joint_limits.iter();
-        let locked = limits.map(|limits| limits.angle_min_rad == limits.angle_max_rad).collect();
+        let locked = limits.map(righting_scenario::JointLimits::is_locked).collect();
         Self { formulation, momentum: attitude.to_inertial(&h_body), center, system, locked }
     }
 
@@ -80,12 +80,28 @@ impl Coordinates {
         self.first_joint_angle() + self.joints() + joint
     }
 
+    /// Takes the joint angles and rates of one state over into another.
+    pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
+        let joints = self.joint_angle(0)..self.dimension();
+        to[joints.clone()].copy_from_slice(&from[joints]);
+    }
+
+    /// Moves the joints of a state on by a step with constant accelerations `u`.
+    pub(crate) fn move_joints(&self, x: &mut [f64], u: &[f64], step_s: f64) {
+        for (joint, &u) in u.iter().enumerate().filter(|&(joint, _)| !self.is_locked(joint)) {
+            let (angle, rate) = (self.joint_angle(joint), self.joint_rate(joint));
+            x[angle] += step_s * (x[rate] + 0.5 * step_s * u);
+            x[rate] += step_s * u;
+        }
+    }
+
     /// The joint angles among the states.
     pub(crate) fn joint_angles<'x, T>(&self, x: &'x [T]) -> &'x [T] {
         &x[self.joint_angle(0)..self.joint_rate(0)]
     }
 
-    fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
+    /// The joint rates among the states.
+    pub(crate) fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
         &x[self.joint_rate(0)..]
     }
 

@@ -4,7 +4,7 @@ use righting_ocp::{DerivativeErrors, Grid, MultipleShooting, StageFunctions};
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
 
-use super::FormulatedManeuver;
+use super::{Clearances, FormulatedManeuver, StageLimits};
 
 /// The eight maneuvers of Table I.
 const MANEUVERS: [&str; 8] = [
@@ -32,8 +32,17 @@ fn spread(len: usize, seed: usize) -> Vec<f64> {
         .collect()
 }
 
-fn check(name: &str, steps: usize) {
-    let formulated = FormulatedManeuver::new(&read(name));
+fn check(name: &str, steps: usize, with_stage_limits: bool) {
+    let scenario = read(name);
+    let mut stage_limits = StageLimits::default();
+    if with_stage_limits {
+        let joints = 0..scenario.system().joint_count();
+        stage_limits.joints.extend(joints.map(|joint| (joint, 1 + joint % 3)));
+        let clearances = 0..Clearances::new(&scenario).len();
+        stage_limits.clearances.extend(clearances.map(|place| (place, 2 + place % 2)));
+    }
+    let formulation = scenario.solver().formulation;
+    let formulated = FormulatedManeuver::in_form(&scenario, formulation, &stage_limits);
     let functions = StageFunctions::compile(&formulated.problem).unwrap();
     let grid = Grid::new(0.05 * steps as f64, steps).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &formulated.initial).unwrap();
@@ -62,8 +71,9 @@ fn derivatives_of_every_maneuver_agree_with_finite_differences() {
     for name in MANEUVERS {
         for suffix in ["", "_full"] {
             for steps in [3, 600] {
-                check(&format!("{name}{suffix}"), steps);
+                check(&format!("{name}{suffix}"), steps, false);
             }
+            check(&format!("{name}{suffix}"), 5, true);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a slew takes at least, about: before anything is solved.
 
 use nalgebra::{Matrix3xX, Vector3};
+use righting_analysis::holonomy::connection;
 use righting_ocp::InitialGuess;
 use righting_scenario::scenario::{Maneuver, REFERENCE_INTERVAL_S};
 
@@ -43,7 +44,13 @@ impl InitialGuesses<'_> {
     /// The length of the shortest joint motion that turns the base by `turn_rad` to first order.
     fn straight_line(&self, turn_rad: &Vector3<f64>) -> Option<f64> {
         let angles = &self.scenario.initial().joint_angles_rad;
-        let connection = Matrix3xX::from_columns(&self.connection(angles));
+        let mut columns = connection(&self.scenario.system().model, angles);
+        for (joint, column) in columns.iter_mut().enumerate() {
+            if self.coordinates.is_locked(joint) {
+                column.fill(0.0);
+            }
+        }
+        let connection = Matrix3xX::from_columns(&columns);
         let decomposition = connection.clone().svd(true, true);
         let most = decomposition.singular_values.max();
         let motion = decomposition.solve(turn_rad, RANK * most).ok()?;

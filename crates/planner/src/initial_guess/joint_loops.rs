@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{DMatrix, DVector, Vector3};
+use righting_analysis::holonomy::Curvature;
 use righting_multibody::Quaternion;
 use righting_ocp::InitialGuess;
 
@@ -12,8 +13,6 @@ use super::{InitialGuesses, LIMIT_SHARE};
 const MOST_TURNS: usize = 3;
 /// Points of a loop at which it may begin, a quarter of it apart.
 const PHASES: usize = 4;
-/// Step of the connection's differences, rad.
-const DIFFERENCE_RAD: f64 = 1e-4;
 /// Times that the plane of a loop is corrected so that the base turns about the axis wanted, and by how
 /// much of what is missing each time.
 const AIMINGS: usize = 30;
@@ -31,19 +30,6 @@ struct Circle {
     turn_per_area: f64,
 }
 
-/// Curvature F of the connection A, where ω = A(q) q̇ = −Ĩ⁻¹ H̃(q, q̇) for an arm without momentum:
-///
-/// ```text
-/// F_ij = ∂A_j/∂q_i − ∂A_i/∂q_j + A_i × A_j
-/// ```
-///
-/// A loop that encloses the area α in the plane of joints i and j turns the base by α F_ij, to second
-/// order in its size (the area rule: Shapere & Wilczek, *J. Fluid Mech.* 198, 1989).
-struct Curvature {
-    joints: usize,
-    values: Vec<Vector3<f64>>,
-}
-
 impl InitialGuesses<'_> {
     /// Loops that turn the base towards `target`, once around or a few times, from each quarter of
     /// the loop. The joints come back to where they were; the attitude is interpolated (slerp), which
@@ -53,8 +39,7 @@ impl InitialGuesses<'_> {
     pub(crate) fn joint_loops(&self, target: &Quaternion<f64>) -> Vec<InitialGuess> {
         let initial = self.scenario.initial();
         let (axis, angle_rad) = initial.attitude.conjugate().product(target).to_axis_angle();
-        let curvature = self.curvature(&initial.joint_angles_rad);
-        let Some(circle) = curvature.best_circle(&axis) else { return Vec::new() };
+        let Some(circle) = self.best_circle(&axis) else { return Vec::new() };
         let kinds = (1..=MOST_TURNS).flat_map(|turns| (0..PHASES).map(move |phase| (turns, phase)));
         kinds
             .map(|(turns, phase)| {
@@ -68,10 +53,16 @@ impl InitialGuesses<'_> {
     /// Loops that turn the base by `angle_rad` about `axis` once around, from each quarter of the loop;
     /// none where no small loop does.
     pub(super) fn single_loops(&self, axis: &Vector3<f64>, angle_rad: f64) -> Vec<InitialGuess> {
-        let curvature = self.curvature(&self.scenario.initial().joint_angles_rad);
-        let Some(circle) = curvature.best_circle(axis) else { return Vec::new() };
+        let Some(circle) = self.best_circle(axis) else { return Vec::new() };
         let phases = (0..PHASES).map(|phase| circle.started_at(phase as f64 * FRAC_PI_2));
         phases.map(|circle| self.scaled(&circle, 1, axis, angle_rad)).collect()
+    }
+
+    /// The circle of the joints that move which turns the base about `axis` best.
+    fn best_circle(&self, axis: &Vector3<f64>) -> Option<Circle> {
+        let angles = &self.scenario.initial().joint_angles_rad;
+        let curvature = Curvature::at(&self.scenario.system().model, angles);
+        Circle::best(&curvature, |joint| !self.coordinates.is_locked(joint), axis)
     }
 
     /// The loop of the size at which it turns the base by `angle_rad` about `axis`, or as large a one
@@ -151,80 +142,45 @@ impl InitialGuesses<'_> {
         }
         guess
     }
-
-    fn curvature(&self, angles: &[f64]) -> Curvature {
-        let joints = angles.len();
-        let here = self.connection(angles);
-        let slopes: Vec<Vec<Vector3<f64>>> = (0..joints)
-            .map(|joint| {
-                let at = |step: f64| {
-                    let mut moved = angles.to_vec();
-                    moved[joint] += step;
-                    self.connection(&moved)
-                };
-                let (after, before) = (at(DIFFERENCE_RAD), at(-DIFFERENCE_RAD));
-                after.iter().zip(&before).map(|(a, b)| (a - b) / (2.0 * DIFFERENCE_RAD)).collect()
-            })
-            .collect();
-        let pairs = (0..joints).flat_map(|i| (0..joints).map(move |j| (i, j)));
-        let values = pairs.map(|(i, j)| slopes[i][j] - slopes[j][i] + here[i].cross(&here[j]));
-        Curvature { joints, values: values.collect() }
-    }
-
-    /// The columns of A: the base's rate for one joint's unit rate.
-    pub(super) fn connection(&self, angles: &[f64]) -> Vec<Vector3<f64>> {
-        let joints = angles.len();
-        (0..joints)
-            .map(|joint| {
-                let mut rates = vec![0.0; joints];
-                rates[joint] = 1.0;
-                let model = &self.scenario.system().model;
-                model.reduced_angular_rate(angles, &rates, &Vector3::zeros())
-            })
-            .collect()
-    }
 }
 
-impl Curvature {
+impl Circle {
     /// The circle that turns the base about `axis` and nothing else, as far as that can be, by as
     /// much as possible.
     ///
     /// A circle turns it by Σ_ij c_i s_j F_ij a unit of area. Along a direction λ that is cᵀ(λ·F)s,
     /// most for the leading singular vectors of the antisymmetric λ·F; λ is moved until their circle
     /// turns the base about the axis.
-    fn best_circle(&self, axis: &Vector3<f64>) -> Option<Circle> {
+    fn best(
+        curvature: &Curvature,
+        moves: impl Fn(usize) -> bool,
+        axis: &Vector3<f64>,
+    ) -> Option<Self> {
+        let joints = curvature.joints();
         let mut aim = *axis;
-        let mut best: Option<(f64, Circle)> = None;
+        let mut best: Option<(f64, Self)> = None;
         for _ in 0..AIMINGS {
-            let entry = |i: usize, j: usize| self.between(i, j).dot(&aim);
-            let decomposition = DMatrix::from_fn(self.joints, self.joints, entry).svd(true, true);
+            let entry = |i: usize, j: usize| match moves(i) && moves(j) {
+                true => curvature.between(i, j).dot(&aim),
+                false => 0.0,
+            };
+            let decomposition = DMatrix::from_fn(joints, joints, entry).svd(true, true);
             let (left, right) = (decomposition.u?, decomposition.v_t?);
             let (cosine, sine) = (left.column(0).into_owned(), right.row(0).transpose());
-            let turned = self.turned(&cosine, &sine);
+            let turned = curvature.turned(&cosine, &sine);
             let turn_per_area = turned.dot(axis);
             if turn_per_area <= 0.0 {
                 break;
             }
             let missing = axis - turned.normalize();
             if best.as_ref().is_none_or(|(least, _)| missing.norm() < *least) {
-                best = Some((missing.norm(), Circle { cosine, sine, turn_per_area }));
+                best = Some((missing.norm(), Self { cosine, sine, turn_per_area }));
             }
             aim = (aim + AIMING_SHARE * missing).normalize();
         }
         best.map(|(_, circle)| circle)
     }
 
-    fn between(&self, i: usize, j: usize) -> Vector3<f64> {
-        self.values[i * self.joints + j]
-    }
-
-    fn turned(&self, cosine: &DVector<f64>, sine: &DVector<f64>) -> Vector3<f64> {
-        let pairs = (0..self.joints).flat_map(|i| (0..self.joints).map(move |j| (i, j)));
-        pairs.map(|(i, j)| self.between(i, j) * (cosine[i] * sine[j])).sum()
-    }
-}
-
-impl Circle {
     /// The same circle, counted from another of its points.
     fn started_at(&self, phase: f64) -> Self {
         let (sin, cos) = phase.sin_cos();
@@ -241,7 +197,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::formulation::FormulatedManeuver;
+    use crate::formulation::{FormulatedManeuver, StageLimits};
     use righting_scenario::file::Formulation;
     use righting_scenario::scenario::Scenario;
 
@@ -254,7 +210,7 @@ mod tests {
         changed.initial.joint_angles_deg = vec![20.0, 30.0, -20.0, 10.0];
         let scenario = Scenario::from_file(changed, &file).unwrap();
         let FormulatedManeuver { coordinates, initial, .. } =
-            FormulatedManeuver::in_form(&scenario, Formulation::Reduced);
+            FormulatedManeuver::in_form(&scenario, Formulation::Reduced, &StageLimits::default());
         check(&InitialGuesses {
             scenario: &scenario,
             coordinates: &coordinates,
@@ -264,10 +220,15 @@ mod tests {
         });
     }
 
+    fn curvature(guesses: &InitialGuesses<'_>) -> Curvature {
+        let scenario = guesses.scenario;
+        Curvature::at(&scenario.system().model, &scenario.initial().joint_angles_rad)
+    }
+
     #[test]
     fn a_small_loop_turns_the_base_by_its_area_times_the_curvature() {
         with_guesses(|guesses| {
-            let curvature = guesses.curvature(&guesses.scenario.initial().joint_angles_rad);
+            let curvature = curvature(guesses);
             for (i, j) in [(0, 1), (1, 2), (0, 3)] {
                 let unit = |joint| DVector::from_fn(4, |k, _| f64::from(u8::from(k == joint)));
                 let (cosine, sine) = (unit(i), unit(j));
@@ -291,8 +252,7 @@ mod tests {
             // Small loops from this posture hardly turn the base about x or y alone.
             for axis in [[0.0, 0.6, 0.8], [-0.6, 0.64, 0.48]] {
                 let axis = Vector3::from(axis);
-                let posture = &guesses.scenario.initial().joint_angles_rad;
-                let circle = guesses.curvature(posture).best_circle(&axis).unwrap();
+                let circle = Circle::best(&curvature(guesses), |_| true, &axis).unwrap();
                 let angle_rad = 2e-3;
                 let guess = guesses.scaled(&circle, 1, &axis, angle_rad);
                 let end = guesses.coordinates.free_floating_state(guess.states.row(STEPS));

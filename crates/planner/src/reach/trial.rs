@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use righting_analysis::Impossible;
 use righting_ocp::Control;
 use righting_results::solution::{IterationRecord, Status, Terminal};
 use righting_scenario::file::{Guess, LowDiscrepancyStarts};
@@ -25,6 +26,8 @@ pub(super) struct Trials<'a> {
     pub(super) successes: Vec<(f64, Reached)>,
     /// The easiest one.
     failure: Option<(f64, Reached)>,
+    /// Of the tries, those that no motion of the arm makes, and why.
+    pub(super) impossible: Vec<Impossible>,
     pub(super) is_interrupted: bool,
 }
 
@@ -43,6 +46,7 @@ impl<'a> Trials<'a> {
             tries: Vec::new(),
             successes: Vec::new(),
             failure: None,
+            impossible: Vec::new(),
             is_interrupted: false,
         }
     }
@@ -51,6 +55,13 @@ impl<'a> Trials<'a> {
     /// stopped its solve.
     pub(super) fn attempt(&mut self, value: f64) -> Result<Option<bool>, ReachError> {
         let scenario = self.variant(value)?;
+        if let Some(reason) = Impossible::of(&scenario) {
+            let control = (self.watch)(Progress::Tried(&impossible(&scenario, &reason)));
+            self.tries.push(impossible(&scenario, &reason));
+            self.impossible.push(reason);
+            self.is_interrupted |= control == Control::Stop;
+            return Ok(Some(false));
+        }
         let neighbor = self.successes.last().map(|(value, _)| *value);
         let mut starts = vec![StartedFrom::Cold];
         if neighbor.is_some() {
@@ -106,7 +117,7 @@ impl<'a> Trials<'a> {
         file.weights.control = Some(weight);
         let cheap = Scenario::from_file(file, Path::new(self.scenario.name()))?;
         let watch = &mut *self.watch;
-        let mut planner = Planner::new().warm_start(&failed.planned.trajectory);
+        let mut planner = Planner::new().without_remedies().warm_start(&failed.planned.trajectory);
         let planned = planner.plan(&cheap, &mut |record| watch(Progress::Iteration(record)))?;
         let found = Reached { scenario: cheap, planned };
         if found.planned.solution.status == Status::Interrupted {
@@ -150,7 +161,8 @@ impl<'a> Trials<'a> {
         };
         let planned = match (start, self.successes.last()) {
             (StartedFrom::Neighbor, Some((_, neighbor))) => {
-                let mut planner = Planner::new().warm_start(&neighbor.planned.trajectory);
+                let mut planner =
+                    Planner::new().without_remedies().warm_start(&neighbor.planned.trajectory);
                 planner.plan(scenario, &mut on_iteration)?
             }
             (StartedFrom::LowDiscrepancy, _) => {
@@ -158,9 +170,9 @@ impl<'a> Trials<'a> {
                 let starts = self.settings.starts;
                 file.solver.guess = Some(Guess::Starts(LowDiscrepancyStarts { starts, seed: 0 }));
                 let many = Scenario::from_file(file, Path::new(self.scenario.name()))?;
-                Planner::new().plan(&many, &mut on_iteration)?
+                Planner::new().without_remedies().plan(&many, &mut on_iteration)?
             }
-            _ => Planner::new().plan(scenario, &mut on_iteration)?,
+            _ => Planner::new().without_remedies().plan(scenario, &mut on_iteration)?,
         };
         self.is_interrupted |= stop || planned.solution.status == Status::Interrupted;
         Ok(Reached { scenario: scenario.clone(), planned })
@@ -208,10 +220,7 @@ impl<'a> Trials<'a> {
         };
         Try {
             duration_s: found.scenario.horizon().duration_s,
-            angle_deg: match found.scenario.maneuver() {
-                Maneuver::Slew(_) => found.scenario.resolved().maneuver.angle_deg,
-                Maneuver::Detumble => None,
-            },
+            angle_deg: angle_deg(&found.scenario),
             succeeded,
             is_verified: found.planned.solution.verification.passed,
             status: found.planned.solution.status,
@@ -229,6 +238,37 @@ impl<'a> Trials<'a> {
             Quantity::Duration => format!("{value} s"),
             Quantity::Angle => format!("{value}\u{b0}"),
         }
+    }
+}
+
+/// The try of a maneuver that need not be solved to be known to fail.
+fn impossible(scenario: &Scenario, reason: &Impossible) -> Try {
+    let unknown = f64::NAN;
+    Try {
+        duration_s: scenario.horizon().duration_s,
+        angle_deg: angle_deg(scenario),
+        succeeded: false,
+        is_verified: false,
+        status: Status::Infeasible,
+        start: StartedFrom::Cold,
+        neighbor: None,
+        iterations: 0,
+        objective: unknown,
+        terminal: Terminal {
+            attitude_error: unknown,
+            attitude_error_deg: unknown,
+            angular_rate_deg_s: unknown,
+            joint_rate_deg_s: unknown,
+        },
+        shortfall: Some(format!("impossible: {reason}")),
+    }
+}
+
+/// The angle of a slew as its scenario has it, deg.
+fn angle_deg(scenario: &Scenario) -> Option<f64> {
+    match scenario.maneuver() {
+        Maneuver::Slew(_) => scenario.resolved().maneuver.angle_deg,
+        Maneuver::Detumble => None,
     }
 }
 

@@ -22,6 +22,7 @@ impl Search<'_> {
         let beginning = self.ranking.asked_grid(&self.grid)?;
         let Some(solution) = self.refined_to(beginning, coarse)? else { return Ok(None) };
         let solution = self.integrated_well(solution, beginning)?;
+        let (solution, _) = self.hold_between_nodes(beginning, solution, true)?;
         let is_minimum = self.model.curvature(beginning, &solution)? == Curvature::Positive;
         if !solution.status.is_success() || !is_minimum {
             return Ok(None);

@@ -8,8 +8,8 @@ use super::{Search, settings};
 
 /// Hops of a round.
 const HOPS: usize = 8;
-/// Rounds at the most; one that brings nothing is the last.
-const ROUNDS: usize = 3;
+/// Rounds at the most.
+const ROUNDS: usize = 5;
 /// How much of a low-discrepancy guess's joint motion a hop takes on top, in turn: from a part of it to
 /// several times.
 const SHARES: [f64; 4] = [0.75, 1.5, 2.25, 3.0];
@@ -19,14 +19,19 @@ const FIRST: u64 = 20;
 const BETTER: f64 = 5e-3;
 
 impl Search<'_> {
-    /// Adds the optima that hops from the best one lead to.
+    /// Adds the optima that hops from the best one lead to, until so many rounds in a row bring nothing.
     pub(super) fn hop(
         &mut self,
         grid: Grid,
         solutions: &mut Vec<OcpSolution>,
+        patience: usize,
     ) -> Result<(), OcpError> {
         let cold = settings::coarse(self.scenario);
+        let mut barren = 0;
         for round in 0..ROUNDS {
+            if barren >= patience || self.is_interrupted() {
+                break;
+            }
             solutions.sort_by(|a, b| a.objective.total_cmp(&b.objective));
             let Some(best) = solutions.first() else { return Ok(()) };
             let before = best.objective;
@@ -41,9 +46,7 @@ impl Search<'_> {
                 .collect();
             solutions.append(&mut self.converged(grid, starts)?);
             let is_better = |found: &OcpSolution| found.objective < before * (1.0 - BETTER);
-            if self.is_interrupted() || !solutions.iter().any(is_better) {
-                return Ok(());
-            }
+            barren = if solutions.iter().any(is_better) { 0 } else { barren + 1 };
         }
         Ok(())
     }

@@ -8,9 +8,12 @@
 //!    solution follows ([`Search::integrated_well`]).
 //! 4. Where the Lagrangian curves downwards at the solution, it is no minimum: the search leaves it
 //!    along that direction ([`Search::leave_saddle`]).
+//! 5. Where a limit is passed between the nodes, it is stated there too, and the problem solved again
+//!    ([`Search::hold_between_nodes`]).
 
 mod accuracy;
 mod batch;
+mod between_nodes;
 mod grids;
 mod hold;
 mod hops;
@@ -32,7 +35,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::Coordinates;
+use crate::formulation::{Coordinates, StageLimits};
 use batch::Batch;
 use grids::Ranking;
 use model::Model;
@@ -47,6 +50,8 @@ pub(crate) struct Search<'a> {
     model: Model,
     /// The reduced form, if initial guesses are ranked in it and it is not the asked one.
     ranking_model: Option<Model>,
+    /// What both state within the steps too.
+    stage_limits: StageLimits,
     /// The asked grid.
     grid: Grid,
     /// What guesses are ranked on.
@@ -58,6 +63,8 @@ pub(crate) struct Search<'a> {
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     /// An earlier plan to start from too.
     earlier: Option<&'a Trajectory>,
+    /// What ranking the initial guesses led to, the best first.
+    coarse: Vec<OcpSolution>,
     notes: Vec<String>,
     attempts: Vec<Attempt>,
     trace: Duration,
@@ -96,26 +103,30 @@ impl<'a> Search<'a> {
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
         let formulation = scenario.solver().formulation;
+        let stage_limits = StageLimits::default();
         let ranking = Ranking::of(scenario);
-        let mut model = Model::compile(scenario, formulation, ranking.substeps)?;
+        let compiled = |form| Model::compile(scenario, form, ranking.substeps, &stage_limits);
+        let mut model = compiled(formulation)?;
         if let Some(substeps) = accuracy::substeps_of_spin(scenario) {
             model.take_substeps(substeps)?;
         }
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
         let ranking_model = match ranks && formulation != Formulation::Reduced {
-            true => Some(Model::compile(scenario, Formulation::Reduced, ranking.substeps)?),
+            true => Some(compiled(Formulation::Reduced)?),
             false => None,
         };
         Ok(Self {
             scenario,
             model,
             ranking_model,
+            stage_limits,
             ranking,
             ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
             threads,
             on_iteration,
             earlier,
+            coarse: Vec::new(),
             notes: Vec::new(),
             attempts: Vec::new(),
             trace: started.elapsed(),
@@ -126,13 +137,13 @@ impl<'a> Search<'a> {
     /// Makes the solves.
     pub(crate) fn run(mut self) -> Result<Found, OcpError> {
         let started = Instant::now();
-        let coarse = self.coarse_solutions()?;
+        self.coarse = self.coarse_solutions()?;
         let guess = started.elapsed();
 
         let started = Instant::now();
         let is_part = self.ranking.asked_steps < self.grid.steps();
         let mut found = None;
-        for solution in coarse.into_iter().take(MOST_REFINED) {
+        for solution in self.coarse.clone().into_iter().take(MOST_REFINED) {
             found = if is_part { self.held_after(solution)? } else { self.refined(solution)? };
             if found.is_some() || self.is_interrupted() {
                 break;
@@ -159,11 +170,12 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// A solution on the asked grid, integrated well and, if there is one, at a minimum; false beside it
-    /// says that it is at none.
+    /// A solution on the asked grid, integrated well, within its limits between the nodes and, if there is
+    /// one, at a minimum; false beside it says that it is at none.
     fn finished(&mut self, solution: OcpSolution) -> Result<(OcpSolution, bool), OcpError> {
         let solution = self.integrated_well(solution, self.grid)?;
-        self.leave_saddle(solution)
+        let (solution, is_minimum) = self.leave_saddle(solution)?;
+        self.hold_between_nodes(self.grid, solution, is_minimum)
     }
 
     fn is_interrupted(&self) -> bool {
@@ -188,17 +200,16 @@ impl<'a> Search<'a> {
         if let (Some(earlier), Some(first)) = (self.earlier, batches.first_mut()) {
             first.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
         }
-        let mut solutions = Vec::new();
+        let (mut solutions, mut agreed) = (Vec::new(), false);
         for (number, batch) in batches.into_iter().enumerate() {
             solutions.append(&mut self.converged(grid, batch)?);
             let objectives: Vec<f64> = solutions.iter().map(|found| found.objective).collect();
-            if portfolio::agree(number + 1, &objectives) || self.is_interrupted() {
+            agreed = portfolio::agree(number + 1, &objectives);
+            if agreed || self.is_interrupted() {
                 break;
             }
         }
-        if portfolio::hops(self.scenario) {
-            self.hop(grid, &mut solutions)?;
-        }
+        self.hop(grid, &mut solutions, portfolio::patience(self.scenario, agreed))?;
         solutions.sort_by(|a, b| a.objective.total_cmp(&b.objective));
         Ok(solutions)
     }

@@ -8,7 +8,7 @@ use righting_results::solution::IterationRecord;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::{Coordinates, FormulatedManeuver};
+use crate::formulation::{Coordinates, FormulatedManeuver, StageLimits};
 use crate::initial_guess::InitialGuesses;
 use crate::planned::record;
 use crate::search::stall::StallCheck;
@@ -31,14 +31,16 @@ pub(super) struct Model {
 }
 
 impl Model {
-    /// A form, with so many Runge–Kutta steps in a step of the grids of ranking.
+    /// A form, with so many Runge–Kutta steps in a step of the grids of ranking, and limits that are stated
+    /// within the steps too.
     pub(super) fn compile(
         scenario: &Scenario,
         formulation: Formulation,
         substeps: NonZeroUsize,
+        stage_limits: &StageLimits,
     ) -> Result<Self, OcpError> {
         let FormulatedManeuver { problem, coordinates, initial } =
-            FormulatedManeuver::in_form(scenario, formulation);
+            FormulatedManeuver::in_form(scenario, formulation, stage_limits);
         let plain = StageFunctions::compile(&problem)?;
         let several = match substeps.get() {
             1 => None,

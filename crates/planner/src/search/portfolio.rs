@@ -7,8 +7,8 @@ use righting_scenario::scenario::{MAX_STARTS, Maneuver, Scenario};
 use crate::initial_guess::InitialGuesses;
 
 /// Low-discrepancy guesses that the automatic guess of a detumble ranks beside the constant one, those after
-/// which the base turns slowest: so many in each batch …
-const DETUMBLE_BATCHES: [usize; 2] = [4, 8];
+/// which the base turns slowest: so many …
+const DETUMBLE_GUESSES: usize = 4;
 /// … of so many.
 const SCREENED_GUESSES: usize = 48;
 /// A batch of a slew: numbers of low-discrepancy guesses, with the attitude turning evenly to the target and
@@ -47,14 +47,8 @@ pub(super) fn ranked_guesses(
             vec![std::iter::once(constant).chain(spread).collect()]
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Detumble) => {
-            let count = DETUMBLE_BATCHES.iter().sum();
-            let mut slowest = guesses.least_final_rate(SCREENED_GUESSES, count).into_iter();
-            let mut batches: Vec<Vec<InitialGuess>> = DETUMBLE_BATCHES
-                .iter()
-                .map(|&count| slowest.by_ref().take(count).collect())
-                .collect();
-            batches[0].insert(0, constant);
-            batches
+            let slowest = guesses.least_final_rate(SCREENED_GUESSES, DETUMBLE_GUESSES);
+            vec![std::iter::once(constant).chain(slowest).collect()]
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(slew)) => {
             let loops = guesses.joint_loops(&slew.target);
@@ -88,10 +82,14 @@ pub(super) fn agree(batches: usize, objectives: &[f64]) -> bool {
     batches == 1 && same >= AGREEING
 }
 
-/// Whether the best optimum found is a start for others.
-pub(super) fn hops(scenario: &Scenario) -> bool {
+/// How many rounds of hops from the best optimum may bring nothing before the search ends; none are made with
+/// zero.
+pub(super) fn patience(scenario: &Scenario, agreed: bool) -> usize {
     let is_auto = scenario.solver().guess == file::Guess::Named(NamedGuess::Auto);
-    is_auto && matches!(scenario.maneuver(), Maneuver::Slew(_))
+    match (is_auto, scenario.maneuver(), agreed) {
+        (false, ..) | (true, Maneuver::Detumble, true) => 0,
+        _ => 1,
+    }
 }
 
 /// What leads away from a stationary point, best first: `count` guesses in all.

@@ -1,6 +1,6 @@
 //! How the optimizer is set for each kind of solve.
 
-use righting_ocp::{LinearSolverChoice, Optimizer, Options, Settings};
+use righting_ocp::{LinearSolverChoice, NlpScaling, Optimizer, Options, Settings};
 use righting_scenario::file::{self, NamedGuess};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
@@ -23,6 +23,8 @@ const WATCHDOG_TRIALS: u32 = 8;
 /// Of a ranked guess on the coarse grid.
 pub(super) fn coarse(scenario: &Scenario) -> Settings {
     let mut settings = intermediate(scenario);
+    // From far away it saves iterations.
+    settings.ipopt.nlp_scaling = NlpScaling::GradientBased;
     settings.ipopt.tolerance = settings.ipopt.tolerance.max(coarse_tolerance(scenario));
     settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(COARSE_ITERATIONS);
     // From so far away corrections of single steps save none.
@@ -62,6 +64,9 @@ pub(super) fn delivered(scenario: &Scenario) -> Settings {
             // Blocks of dense factors leave residuals near rounding: over the shipped maneuvers Ipopt's
             // check of every step changes no iteration and takes a quarter of the time.
             fast_step_computation: true,
+            // The problem is in its own measures already. Scaling by the gradient at the start would loosen
+            // the tolerance by as much as the end is missed there.
+            nlp_scaling: NlpScaling::None,
             ..plain.ipopt
         },
         ..plain

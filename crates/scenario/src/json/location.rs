@@ -29,6 +29,16 @@ impl Location {
         Self { file: self.file.clone(), path: format!("{}[{index}]", self.path) }
     }
 
+    /// The JSON path of this field, such as `links[3].mass_kg`; empty at the root.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// A remark on what is here and was accepted.
+    pub(crate) fn note(&self, remark: impl fmt::Display) -> String {
+        format!("{}: {remark}", self.path)
+    }
+
     /// What is here is not what is expected.
     pub fn refuse(&self, found: impl fmt::Display, expected: impl fmt::Display) -> Error {
         self.error(FieldProblem::Mismatch(Mismatch::new(found, expected)))
@@ -113,6 +123,14 @@ impl fmt::Display for Bounds {
 /// A number as a person writes it.
 pub struct Number(pub f64);
 
+impl Number {
+    /// The number rounded to this many significant digits.
+    pub fn rounded(value: f64, digits: usize) -> Self {
+        let decimals = digits.saturating_sub(1);
+        Self(format!("{value:.decimals$e}").parse().unwrap_or(value))
+    }
+}
+
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let magnitude = self.0.abs();
@@ -141,5 +159,10 @@ mod tests {
         assert!(place.within(0.0, Bounds::Above(0.0, 1.0)).is_err());
         assert!(place.within(1.5, Bounds::Whole(0.0, 2.0)).is_err());
         assert!(place.within(2.0, Bounds::Whole(0.0, 2.0)).is_ok());
+        assert_eq!(place.path(), "links[3].mass_kg");
+        assert_eq!(place.note("as it is"), "links[3].mass_kg: as it is");
+        for (value, shown) in [(0.436_629_4, "0.436629"), (1.0, "1"), (-0.000_012, "-1.2e-5")] {
+            assert_eq!(Number::rounded(value, 6).to_string(), shown);
+        }
     }
 }

@@ -41,13 +41,20 @@ impl Body {
         Self { mass: base.mass_kg, carrier: Carrier::Base, center: Vector3::zeros(), inertia }
     }
 
-    /// The link of row `index`, counted from zero: between frames `index` and `index + 1`.
+    /// The mass of row `index`, counted from zero, whose segment lies between frames `index` and
+    /// `index + 1`.
     pub fn link(link: &file::Link, row: &Row, convention: Convention, index: usize) -> Self {
-        // Seen from the frame that the link moves with, its segment is the same at every angle.
+        // Seen from the frame that the segment moves with, it is the same at every angle. In another
+        // frame it gives no default: a mass in that has its center and inertia.
         let (outboard, arm) = row.follow(convention, &Matrix3::identity(), 0.0);
         let (carrier, inboard_end, outboard_end) = match convention {
             Convention::Distal => (index + 1, -(outboard.transpose() * arm), Vector3::zeros()),
             Convention::Proximal => (index, Vector3::zeros(), arm),
+        };
+        let carrier = match link.inertial_frame {
+            None => carrier,
+            Some(file::InertialFrame::Previous) => index,
+            Some(file::InertialFrame::Own) => index + 1,
         };
         let middle = (inboard_end + outboard_end) / 2.0;
         Self {

@@ -41,7 +41,7 @@ impl FileKind {
     }
 
     /// The kind that a file means to be, whatever else is wrong with it; none if it cannot be told.
-    pub(super) fn of(root: &Value) -> Option<Self> {
+    pub(crate) fn of(root: &Value) -> Option<Self> {
         let has = |key| root.get(key).is_some();
         let schema = root.get("schema").and_then(Value::as_str).unwrap_or_default();
         match schema.split('/').next() {
@@ -57,7 +57,7 @@ impl FileKind {
     }
 
     /// Whether a file of kind `found` is one of this kind.
-    pub(super) fn includes(self, found: Self) -> bool {
+    pub(crate) fn includes(self, found: Self) -> bool {
         match self {
             Self::SystemOrScenario => matches!(found, Self::System | Self::Scenario),
             own => own == found,

@@ -1,0 +1,257 @@
+//! Maneuvers that no motion of the arm makes.
+
+use std::error::Error;
+use std::fmt;
+
+use nalgebra::Vector3;
+use righting_scenario::scenario::Slew;
+use righting_scenario::{Maneuver, Scenario};
+use righting_verifier::ATTITUDE_ERROR;
+
+use crate::detumble::{largest_inertia_kg_m2, some_posture_is_slower};
+use crate::holonomy::{SingleJoint, TurnableAxes, off_axis_rad};
+
+/// A bound that rests on sampled postures is taken times this: nothing possible shall be called impossible.
+const SAMPLING_MARGIN: f64 = 2.0;
+/// An arm that turns its base so much slower about all other axes turns it about one.
+const ONE_AXIS: f64 = 0.01;
+/// A detumble that gains less than this share of the rate gains nothing.
+const NO_GAIN: f64 = 1e-6;
+
+/// Why no motion of the arm makes a maneuver. Displayed as one sentence, with what is possible instead; up
+/// to its semicolon it holds no number of the maneuver's own.
+///
+/// It follows from the arm's mechanics, its limits and the duration. That none of these reasons applies does
+/// not say that there is a plan.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Impossible {
+    /// No joint turns the base.
+    NothingTurns,
+    /// The base turns about one axis only.
+    OneAxis {
+        /// That axis, a unit vector in body axes.
+        axis: Vector3<f64>,
+        /// Angle between it, whichever way it points, and the axis asked, deg.
+        off_deg: f64,
+        /// No motion turns the base by as much about other axes, deg: 0, or so little that the duration
+        /// does not suffice.
+        others_deg: f64,
+        /// Whether the cause is that the joints are parallel.
+        are_joints_parallel: bool,
+    },
+    /// Only one joint turns the base, and it does not pass the target.
+    OneJoint {
+        /// The joint, counted from zero.
+        joint: usize,
+        /// The smallest angle between what it reaches and the target, deg.
+        nearest_deg: f64,
+        /// The angle asked, deg.
+        angle_deg: f64,
+        /// The axes about which it turns the base by that angle, unit vectors in body axes at the start.
+        axes: Vec<Vector3<f64>>,
+        /// The largest angle by which it turns the base, deg.
+        largest_deg: f64,
+    },
+    /// The joints are too slow for the duration.
+    TooShort {
+        /// No motion of the joints turns the base by as much, deg.
+        most_deg: f64,
+        /// The angle asked, deg.
+        angle_deg: f64,
+        /// In this time, s.
+        duration_s: f64,
+    },
+    /// No joint changes the rate that a detumble shall reduce.
+    NothingSlows,
+    /// The posture at the start has the largest inertia of all: no other leaves less rate.
+    LargestInertia {
+        /// The largest principal inertia within the joints' limits and clearances, kg m².
+        inertia_kg_m2: f64,
+        /// The rate left by stopping the arm where it starts, deg/s.
+        stopped_deg_s: f64,
+    },
+}
+
+impl Impossible {
+    /// What makes the maneuver of a scenario impossible, if that is known without planning it. A slew that
+    /// is within its tolerance of doing nothing is always possible.
+    pub fn of(scenario: &Scenario) -> Option<Self> {
+        match scenario.maneuver() {
+            Maneuver::Slew(slew) => of_slew(scenario, slew),
+            Maneuver::Detumble => of_detumble(scenario),
+        }
+    }
+
+    /// The axes about which the base can turn instead, by the angle asked: unit vectors in body axes, each
+    /// standing for both its directions if there is only one; empty where there is none, and where the axis
+    /// is not what stands in the way.
+    pub fn possible_axes(&self) -> &[Vector3<f64>] {
+        match self {
+            Self::OneAxis { axis, .. } => std::slice::from_ref(axis),
+            Self::OneJoint { axes, .. } => axes,
+            _ => &[],
+        }
+    }
+}
+
+fn of_slew(scenario: &Scenario, slew: &Slew) -> Option<Impossible> {
+    let system = scenario.system();
+    let initial = scenario.initial();
+    let target = initial.attitude.conjugate().product(&slew.target).normalized();
+    let missed = target.vector.norm();
+    if missed <= ATTITUDE_ERROR {
+        return None;
+    }
+    let duration_s = scenario.horizon().duration_s;
+    let tolerance_rad = 2.0 * ATTITUDE_ERROR.asin();
+    // Whether a rotation by `angle_rad` is out of reach at a rate that was looked for in samples.
+    let is_beyond = |angle_rad: f64, fastest_rad_s: f64| {
+        angle_rad - SAMPLING_MARGIN * fastest_rad_s * duration_s > tolerance_rad
+    };
+    let angle_rad = 2.0 * missed.min(1.0).asin();
+    let turnable = TurnableAxes::new(system);
+    if turnable.rank() == 0 {
+        return Some(Impossible::NothingTurns);
+    }
+    // A rotation about the only axis a comes this near to the target: in axes that turn along about a, the
+    // base turns by no more than what ω has across a.
+    let axis = turnable.principal_axes[0];
+    let across_rad = 2.0 * (target.vector - axis * axis.dot(&target.vector)).norm().min(1.0).asin();
+    let across_rad_s = turnable.fastest_across_rad_s;
+    let is_about_one_axis = across_rad_s <= ONE_AXIS * turnable.fastest_rad_s;
+    if is_about_one_axis && is_beyond(across_rad, across_rad_s) {
+        let others_rad = match turnable.rank() {
+            1 => 0.0,
+            _ => SAMPLING_MARGIN * across_rad_s * duration_s,
+        };
+        return Some(Impossible::OneAxis {
+            axis,
+            off_deg: off_axis_rad(&axis, &slew.axis).to_degrees(),
+            others_deg: others_rad.to_degrees(),
+            are_joints_parallel: turnable.are_joints_parallel,
+        });
+    }
+    if let &[joint] = turnable.effective_joints.as_slice() {
+        let travel_rad = system.joint_limits[joint].rate_max_rad_s * duration_s;
+        let curve = SingleJoint::new(system, &initial.joint_angles_rad, joint, travel_rad);
+        let nearest_rad = curve.smallest_miss_rad(&target);
+        if curve.is_whole && nearest_rad > tolerance_rad {
+            return Some(Impossible::OneJoint {
+                joint,
+                nearest_deg: nearest_rad.to_degrees(),
+                angle_deg: angle_rad.to_degrees(),
+                axes: curve.axes_at(angle_rad),
+                largest_deg: curve.largest_angle_rad().to_degrees(),
+            });
+        }
+    }
+    is_beyond(angle_rad, turnable.fastest_rad_s).then(|| Impossible::TooShort {
+        most_deg: (SAMPLING_MARGIN * turnable.fastest_rad_s * duration_s).to_degrees(),
+        angle_deg: angle_rad.to_degrees(),
+        duration_s,
+    })
+}
+
+fn of_detumble(scenario: &Scenario) -> Option<Impossible> {
+    let stopped_rad_s = scenario.stopped_rate_rad_s();
+    let enough_rad_s = stopped_rad_s * (1.0 - NO_GAIN);
+    if !some_posture_is_slower(scenario, enough_rad_s) {
+        let inertia_kg_m2 = largest_inertia_kg_m2(scenario);
+        let least_rad_s = scenario.initial().angular_momentum_n_m_s.norm() / inertia_kg_m2;
+        if least_rad_s >= enough_rad_s {
+            let stopped_deg_s = stopped_rad_s.to_degrees();
+            return Some(Impossible::LargestInertia { inertia_kg_m2, stopped_deg_s });
+        }
+    }
+    let turnable = TurnableAxes::new(scenario.system());
+    turnable.effective_joints.is_empty().then_some(Impossible::NothingSlows)
+}
+
+impl fmt::Display for Impossible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NothingTurns => write!(f, "nothing that this arm's joints do turns the base"),
+            Self::OneAxis { axis, off_deg, others_deg, are_joints_parallel } => {
+                match are_joints_parallel {
+                    true => write!(f, "this arm's joints are parallel: it turns")?,
+                    false => write!(f, "this arm turns")?,
+                }
+                let axis = Shown(axis);
+                write!(
+                    f,
+                    " the base about {axis} only; the axis asked is {off_deg:.1}\u{b0} from it"
+                )?;
+                match others_deg {
+                    0.0 => Ok(()),
+                    _ => write!(
+                        f,
+                        ", and about others it turns it by less than {}\u{b0}",
+                        Degrees(*others_deg)
+                    ),
+                }
+            }
+            Self::OneJoint { joint, nearest_deg, angle_deg, axes, largest_deg } => {
+                write!(
+                    f,
+                    "only joint {} of this arm turns the base, and not to the target; it comes no nearer than \
+                     {nearest_deg:.1}\u{b0}, and ",
+                    joint + 1
+                )?;
+                if axes.is_empty() {
+                    return write!(f, "it turns the base by {largest_deg:.1}\u{b0} at most");
+                }
+                let axes: Vec<String> = axes.iter().map(|axis| Shown(axis).to_string()).collect();
+                write!(
+                    f,
+                    "by {angle_deg:.1}\u{b0} it turns the base about {} only",
+                    axes.join(" or ")
+                )
+            }
+            Self::TooShort { most_deg, angle_deg, duration_s } => write!(
+                f,
+                "the duration is too short for this arm; in {duration_s} s its joints turn the base by less \
+                 than {}\u{b0}, and the angle asked is {}\u{b0}",
+                Degrees(*most_deg),
+                Degrees(*angle_deg)
+            ),
+            Self::NothingSlows => {
+                write!(f, "nothing that this arm's joints do changes the base's rate")
+            }
+            Self::LargestInertia { inertia_kg_m2, stopped_deg_s } => write!(
+                f,
+                "the posture already has the largest inertia within reach; stopping the arm there leaves \
+                 {stopped_deg_s:.6} deg/s, and no other posture leaves less ({inertia_kg_m2:.4} kg m\u{b2})"
+            ),
+        }
+    }
+}
+
+impl Error for Impossible {}
+
+/// An angle with one decimal, or two digits where that would say nothing.
+struct Degrees(f64);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self(degrees) if degrees.abs() >= 0.1 => write!(f, "{degrees:.1}"),
+            Self(degrees) => write!(f, "{degrees:.1e}"),
+        }
+    }
+}
+
+/// A unit vector with three decimals.
+pub(crate) struct Shown<'a>(pub &'a Vector3<f64>);
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: f64| {
+            let text = format!("{value:.3}");
+            let text = text.trim_end_matches('0').trim_end_matches('.');
+            if text == "-0" { "0".to_owned() } else { text.to_owned() }
+        };
+        let Self(vector) = self;
+        write!(f, "[{}, {}, {}]", number(vector.x), number(vector.y), number(vector.z))
+    }
+}

@@ -1,0 +1,113 @@
+//! Where a motion passes a limit between its nodes: the planner's own look, so that it can mend it.
+
+mod approach;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use righting_ocp::Samples;
+use righting_scenario::{JointLimits, Scenario};
+
+use crate::formulation::{Clearances, Coordinates};
+use approach::Approach;
+
+/// How far an angle may be past its limit, rad: nine tenths of what the verifier lets pass, as below.
+const ANGLE_RAD: f64 = 9e-4;
+/// How much of the clearance a distance may lack, …
+const CLEARANCE_SHARE: f64 = 0.09;
+/// … how much of the system's size at most, and how little is nothing.
+const MOST_LACKING: f64 = 9e-4;
+const LEAST_LACKING: f64 = 9e-7;
+
+/// The limits that are passed between nodes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PassedLimits {
+    /// Joints whose angle does, counted from zero.
+    pub(crate) joints: BTreeSet<usize>,
+    /// Clearances that are not kept, by their place in [`Clearances`].
+    pub(crate) clearances: BTreeMap<usize, PassedClearance>,
+}
+
+/// A clearance that is not kept between nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct PassedClearance {
+    /// Between how many equal parts of every step it would have to be stated, by what is seen of it.
+    pub(crate) parts: usize,
+    /// Whether less than half of it is left somewhere: things that go through each other.
+    pub(crate) is_crossing: bool,
+}
+
+impl PassedLimits {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.joints.is_empty() && self.clearances.is_empty()
+    }
+
+    /// Whether things go through each other.
+    pub(crate) fn is_crossing(&self) -> bool {
+        self.clearances.values().any(|passed| passed.is_crossing)
+    }
+}
+
+/// One step of a motion: joint angles, rates and accelerations where it begins, and its length.
+#[derive(Clone, Copy)]
+struct Step<'a> {
+    angles: &'a [f64],
+    rates: &'a [f64],
+    accelerations: &'a [f64],
+    duration: f64,
+}
+
+impl Step<'_> {
+    fn angle(&self, joint: usize, after: f64) -> f64 {
+        let rate = self.rates[joint] + 0.5 * after * self.accelerations[joint];
+        self.angles[joint] + after * rate
+    }
+
+    /// The angle farthest past a limit where the joint turns back within the step, rad.
+    fn excess_where_it_turns(&self, joint: usize, limits: &JointLimits) -> f64 {
+        let after = -self.rates[joint] / self.accelerations[joint];
+        match after > 0.0 && after < self.duration {
+            true => {
+                let angle = self.angle(joint, after);
+                (angle - limits.angle_max_rad).max(limits.angle_min_rad - angle)
+            }
+            false => f64::NEG_INFINITY,
+        }
+    }
+}
+
+/// Which limits a motion passes between its nodes: `states` are the states there, one row more than
+/// `controls`, and `duration` is the length of a step.
+pub(crate) fn passed_limits(
+    scenario: &Scenario,
+    coordinates: &Coordinates,
+    states: &Samples,
+    controls: &Samples,
+    duration: f64,
+) -> PassedLimits {
+    let joint_limits = &scenario.system().joint_limits;
+    let clearances = Clearances::new(scenario);
+    let size = clearances.system.mount().position_m.norm()
+        + clearances.system.links().iter().map(|link| link.length_m()).sum::<f64>();
+    let lacking = (CLEARANCE_SHARE * clearances.clearance_m())
+        .min(MOST_LACKING * size)
+        .max(LEAST_LACKING * size);
+    let mut passed = PassedLimits::default();
+    let mut approach = Approach::new(&clearances, lacking);
+    for ((x, next), u) in states.rows().zip(states.rows().skip(1)).zip(controls.rows()) {
+        let step = Step {
+            angles: coordinates.joint_angles(x),
+            rates: coordinates.joint_rates(x),
+            accelerations: u,
+            duration,
+        };
+        for (joint, limits) in joint_limits.iter().enumerate() {
+            if step.excess_where_it_turns(joint, limits) > ANGLE_RAD {
+                passed.joints.insert(joint);
+            }
+        }
+        approach.follow(&step, coordinates.joint_angles(next), &mut passed.clearances);
+    }
+    passed
+}

@@ -1,0 +1,105 @@
+//! Limits that are stated within the steps too, where the nodes alone let a motion pass them.
+//!
+//! Over a step of length Δt the joints' acceleration is held, so their angles are
+//!
+//! ```text
+//! q(s) = q_k + s q̇_k + s²/2 u_k,   0 ≤ s ≤ Δt,
+//! ```
+//!
+//! a quadratic Bézier curve with the control points q_k, q_k + Δt/2 q̇_k and q_{k+1}. It lies in their
+//! hull: with the angles of the nodes within their limits, the middle point's being so is enough, and is
+//! linear. It asks for up to Δt²/8 |u| more than is needed. So a long step is taken as m curves, one after
+//! the other, with the middle points q(s) + Δt/2m q̇(s) at s = 0, Δt/m, …; these ask for 1/m² of that.
+//!
+//! Distances are stated at places within the step, which x_k and u_k decide alone.
+
+use std::collections::BTreeMap;
+
+use righting_ocp::{ComponentBounds, Expr};
+use righting_scenario::JointLimits;
+
+use super::{Clearances, Coordinates};
+
+/// By how much more than needed a joint may be kept from its limit, rad …
+const MOST_TOO_MUCH_RAD: f64 = 2e-3;
+/// … if so many curves a step are enough for that.
+const MOST_CURVES: usize = 4;
+
+/// The joints and clearances whose limits are stated within the steps too.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct StageLimits {
+    /// Joints, counted from zero, and the number of curves that each of their steps is taken as.
+    pub(crate) joints: BTreeMap<usize, usize>,
+    /// Clearances, by their place among those that the joints decide, and the number of equal parts of
+    /// a step between which each is stated.
+    pub(crate) clearances: BTreeMap<usize, usize>,
+}
+
+impl StageLimits {
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.joints.is_empty() && self.clearances.is_empty()
+    }
+
+    /// How many curves a step of length `h` of a joint is taken as.
+    pub(crate) fn curves(limits: &JointLimits, h: f64) -> usize {
+        let too_much = limits.acceleration_max_rad_s2 * h * h / 8.0;
+        ((too_much / MOST_TOO_MUCH_RAD).sqrt().ceil() as usize).clamp(1, MOST_CURVES)
+    }
+
+    /// Bounds of [`Self::values`].
+    pub(super) fn bounds(
+        &self,
+        joint_limits: &[JointLimits],
+        clearances: &Clearances,
+    ) -> ComponentBounds {
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for (&joint, &curves) in &self.joints {
+            for _ in 0..curves {
+                lower.push(joint_limits[joint].angle_min_rad);
+                upper.push(joint_limits[joint].angle_max_rad);
+            }
+        }
+        for (&clearance, &parts) in &self.clearances {
+            for _ in 1..parts {
+                lower.push(clearances.least_squared(clearance));
+                upper.push(f64::INFINITY);
+            }
+        }
+        ComponentBounds::new(lower, upper)
+    }
+
+    /// The middle control points of the joints' curves, then the squared distances within a step of
+    /// length `h`.
+    pub(super) fn values(
+        &self,
+        coordinates: &Coordinates,
+        clearances: &Clearances,
+        (x, u): (&[Expr], &[Expr]),
+        h: Expr,
+    ) -> Vec<Expr> {
+        let (angles, rates) = (coordinates.joint_angles(x), coordinates.joint_rates(x));
+        let u: Vec<Expr> = (u.iter().enumerate())
+            .map(|(joint, &u)| if coordinates.is_locked(joint) { Expr::constant(0.0) } else { u })
+            .collect();
+        let mut values = Vec::new();
+        for (&joint, &curves) in &self.joints {
+            let share = 1.0 / curves as f64;
+            for curve in 0..curves {
+                let s = h * (curve as f64 * share);
+                let angle = angles[joint] + s * (rates[joint] + s * 0.5 * u[joint]);
+                values.push(angle + h * (0.5 * share) * (rates[joint] + s * u[joint]));
+            }
+        }
+        for (&clearance, &parts) in &self.clearances {
+            for part in 1..parts {
+                let s = h * (part as f64 / parts as f64);
+                let joints = angles.iter().zip(rates).zip(&u);
+                let posture: Vec<Expr> =
+                    joints.map(|((&q, &rate), &u)| q + s * (rate + s * 0.5 * u)).collect();
+                values.push(clearances.squared_distance(&posture, clearance));
+            }
+        }
+        values
+    }
+}

@@ -1,0 +1,72 @@
+//! What a joint can do.
+
+use std::f64::consts::PI;
+
+use crate::error::Error;
+use crate::file;
+use crate::json::{Bounds, Location, Number};
+
+const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
+// Of a clock that runs a hundred times slower, too.
+const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
+const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 3.6e9);
+
+/// What a joint can do. One whose smallest angle is its largest is locked: it holds that angle,
+/// whatever its rate and acceleration could be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLimits {
+    /// Smallest angle, rad; −∞ if there is none.
+    pub angle_min_rad: f64,
+    /// Largest angle, rad; +∞ if there is none.
+    pub angle_max_rad: f64,
+    /// Largest rate in magnitude, rad/s.
+    pub rate_max_rad_s: f64,
+    /// Largest acceleration in magnitude, rad/s².
+    pub acceleration_max_rad_s2: f64,
+}
+
+impl JointLimits {
+    /// Checks the limits of a row that was read from `place`.
+    pub(crate) fn from_file(row: &file::Link, place: &Location) -> Result<Self, Error> {
+        let angle = |name: &str, value: Option<f64>, none: f64| match value {
+            Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
+            None => Ok(none),
+        };
+        let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
+        let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
+        if min_deg > max_deg {
+            let allowed = format!("at most angle_max_deg, {}", Number(max_deg));
+            return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
+        }
+        place.key("rate_max_deg_s").within(row.rate_max_deg_s, RATE_DEG_S)?;
+        let acceleration_place = place.key("acceleration_max_deg_s2");
+        acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        Ok(Self::of(row))
+    }
+
+    /// The limits of a row that was checked.
+    pub(crate) fn of(row: &file::Link) -> Self {
+        let angle_rad = |degrees: Option<f64>, none: f64| degrees.map_or(none, f64::to_radians);
+        Self {
+            angle_min_rad: angle_rad(row.angle_min_deg, f64::NEG_INFINITY),
+            angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
+            rate_max_rad_s: row.rate_max_deg_s.to_radians(),
+            acceleration_max_rad_s2: row.acceleration_max_deg_s2.to_radians(),
+        }
+    }
+
+    /// Whether the joint cannot move: its smallest angle is its largest.
+    pub fn is_locked(&self) -> bool {
+        self.angle_min_rad == self.angle_max_rad
+    }
+
+    /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.
+    pub fn angle_range_rad(&self) -> (f64, f64) {
+        match (self.angle_min_rad.is_finite(), self.angle_max_rad.is_finite()) {
+            (true, true) => (self.angle_min_rad, self.angle_max_rad),
+            (true, false) => (self.angle_min_rad, self.angle_min_rad + 2.0 * PI),
+            (false, true) => (self.angle_max_rad - 2.0 * PI, self.angle_max_rad),
+            (false, false) => (-PI, PI),
+        }
+    }
+}

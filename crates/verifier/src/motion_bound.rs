@@ -1,0 +1,71 @@
+//! How far the arm can move in a stretch of time, from its lengths and the joints' rates alone.
+//!
+//! With o_j a point on the axis e_j of joint j, a point p of a link that joints 0…b move has
+//!
+//! ```text
+//! ṗ = Σ_j q̇_j e_j × (p − o_j)
+//! p̈ = Σ_j q̈_j e_j × (p − o_j) + Σ_ij q̇_i q̇_j e_min × (e_max × (p − o_max))    min, max of i and j
+//! ```
+//!
+//! and |p − o_j| ≤ R_j, the lengths of the links from joint j to the end of that one. So |ṗ| is at most
+//! Σ R_j |q̇_j|, and |p̈| at most Σ R_j |q̈_j| + (Σ |q̇_j|) (Σ R_j |q̇_j|).
+
+use righting_scenario::file;
+
+/// The R_j of every link.
+#[derive(Clone, Debug)]
+pub(super) struct Reach {
+    /// Of each link: one a joint that moves it, in order, m.
+    of_links: Vec<Vec<f64>>,
+}
+
+impl Reach {
+    pub fn new(system: &file::System) -> Self {
+        let lengths_m: Vec<f64> =
+            system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
+        // The axis of joint i goes through the inboard end of link i, which it moves, or, by Craig's
+        // convention, through its outboard end, and the first link that it moves is the next.
+        let first_moved = match system.dh_convention {
+            file::DhConvention::Standard => 0,
+            file::DhConvention::Modified => 1,
+        };
+        let of_link = |link: usize| {
+            let joints = 0..(link + 1 - first_moved);
+            joints.map(|joint| lengths_m[joint + first_moved..=link].iter().sum()).collect()
+        };
+        Self { of_links: (0..lengths_m.len()).map(of_link).collect() }
+    }
+}
+
+/// The joints' motion over a stretch of time.
+pub(super) struct Stretch<'a> {
+    pub reach: &'a Reach,
+    /// Largest magnitude of each joint's rate, rad/s.
+    pub rates: &'a [f64],
+    /// Of each joint, constant, rad/s².
+    pub accelerations: &'a [f64],
+    pub duration_s: f64,
+}
+
+impl Stretch<'_> {
+    /// The most that a point of `link` moves as seen from another link farther in, or from the base, m.
+    pub fn travel_m(&self, link: usize, seen_from: Option<usize>) -> f64 {
+        let reach = &self.reach.of_links;
+        let shared = seen_from.map_or(0, |other| reach[other].len());
+        let joints = self.rates.iter().zip(&reach[link]).skip(shared);
+        self.duration_s * joints.map(|(rate, reach_m)| rate * reach_m).sum::<f64>()
+    }
+
+    /// The most that a point of `link` is off the straight way between where it is at the beginning and
+    /// at the end, gone at constant speed, as seen from the base, m: the error of linear interpolation,
+    /// max |p̈| Δt²/8.
+    pub fn bend_m(&self, link: usize) -> f64 {
+        let reach = &self.reach.of_links[link];
+        let weighted = |values: &[f64]| -> f64 {
+            values.iter().zip(reach).map(|(value, reach_m)| value.abs() * reach_m).sum()
+        };
+        let turning: f64 = self.rates.iter().take(reach.len()).sum();
+        let acceleration = weighted(self.accelerations) + turning * weighted(self.rates);
+        acceleration * self.duration_s.powi(2) / 8.0
+    }
+}

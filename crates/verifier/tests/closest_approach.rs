@@ -1,0 +1,175 @@
+//! Clearances between two samples.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use righting_results::{Check, Trajectory, Verification};
+use righting_scenario::file::{Link, SystemReference};
+use righting_scenario::{Scenario, file};
+use righting_test_support::arms::arm;
+use righting_test_support::{motion, shipped, varied};
+use righting_verifier::model::{Model, Segment};
+use righting_verifier::verify;
+
+const LINKS: &str = "clearance between links between nodes";
+const BODY: &str = "clearance from body between nodes";
+/// What a clearance may be missed by between nodes, m.
+const TOLERANCE_M: f64 = 1e-3;
+
+fn link(a_m: f64, alpha_deg: f64) -> Link {
+    Link {
+        mass_kg: if a_m > 0.0 { 3.0 } else { 0.0 },
+        a_m,
+        alpha_deg,
+        d_m: 0.0,
+        theta_deg: 0.0,
+        angle_min_deg: None,
+        angle_max_deg: None,
+        rate_max_deg_s: 100.0,
+        acceleration_max_deg_s2: 100.0,
+        body_exempt: false,
+        center_of_mass_m: None,
+        inertia_kg_m2: None,
+        inertial_frame: None,
+    }
+}
+
+/// Two links of 2 m that lie in the plane of the mount, the second turned back by 120°, and a last one
+/// hanging from the end of the second. It swings about the direction of the first, whose middle it
+/// reaches if it is 1.732 m long: a pendulum through a rod.
+fn pendulum(length_m: f64) -> Scenario {
+    varied(&shipped("slew_4dof"), |file| {
+        let SystemReference::Inline(system) = &mut file.system else { unreachable!() };
+        system.links = vec![link(2.0, 0.0), link(2.0, 0.0), link(0.0, 90.0), link(length_m, 0.0)];
+        system.base.keep_out_radius_m = Some(0.05);
+        system.base.inertia_kg_m2 = Some([[50.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, 50.0]]);
+        system.base.cube_side_m = None;
+        file.initial.joint_angles_deg = vec![0.0, 120.0, 150.0, -60.0];
+        file.horizon = file::Horizon { duration_s: 3.0, steps: 3.0 };
+        file.collision.clearance_m = Some(0.01);
+    })
+}
+
+/// The pendulum's swing from 60° on the one side to 60° on the other, at constant rate in the middle of
+/// three steps.
+fn swung(scenario: &Scenario) -> Trajectory {
+    let push = 60.0_f64.to_radians();
+    motion(scenario, &[push, 0.0, -push].map(|u| vec![0.0, 0.0, 0.0, u]))
+}
+
+fn check<'a>(verification: &'a Verification, name: &str) -> &'a Check {
+    verification.check(name).unwrap_or_else(|| panic!("no check is called {name}"))
+}
+
+/// The distances that are kept, at `samples` places in every interval, as what is past the least one:
+/// between links and from the body.
+fn sampled_excess(scenario: &Scenario, plan: &Trajectory, samples: usize) -> [f64; 2] {
+    let model = Model::new(scenario.resolved_system());
+    let collision = scenario.collision();
+    let mut origins = vec![Vector3::zeros(); model.joint_count() + 1];
+    let mut worst = [f64::NEG_INFINITY; 2];
+    let step_s = scenario.horizon().step_s();
+    for (node, interval) in plan.nodes().iter().zip(plan.intervals()) {
+        for sample in 1..=samples {
+            let after_s = step_s * sample as f64 / (samples + 1) as f64;
+            let angles: Vec<f64> = (0..model.joint_count())
+                .map(|joint| {
+                    let gained = interval.joint_accelerations_rad_s2[joint] * after_s;
+                    let rate = node.joint_rates_rad_s[joint] + 0.5 * gained;
+                    node.joint_angles_rad[joint] + rate * after_s
+                })
+                .collect();
+            model.origins(&angles, &mut origins);
+            let segment = |link: usize| Segment { start: origins[link], end: origins[link + 1] };
+            for &(a, b) in &collision.link_pairs {
+                let distance_m = segment(a).distance_to_segment(&segment(b));
+                worst[0] = worst[0].max(collision.clearance_m - distance_m);
+            }
+            for &link in &collision.body_links {
+                let distance_m = segment(link).distance_to_point(&Vector3::zeros());
+                worst[1] = worst[1].max(collision.body_distance_m - distance_m);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn links_that_pass_through_each_other_between_two_samples_are_caught() {
+    let scenario = pendulum(1.9);
+    let plan = swung(&scenario);
+    // Ten places an interval see nothing: the nearest are 8 cm before and behind.
+    assert!(sampled_excess(&scenario, &plan, 10)[0] < -0.05);
+    let verification = verify(&scenario, &plan);
+    let caught = check(&verification, LINKS);
+    assert!(!caught.passed, "{caught}");
+    assert_eq!(caught.subject.as_deref(), Some("links 1 and 4"));
+    assert!((caught.time_s.unwrap() - 1.5).abs() < 1e-3, "{caught}");
+    assert!(caught.value < TOLERANCE_M / 10.0, "{caught}");
+    assert!(check(&verification, "clearance between links at nodes").passed);
+}
+
+/// A pendulum that is just too short to touch, or just not.
+#[test]
+fn the_tolerance_parts_those_that_pass_from_those_that_do_not() {
+    let reach_m = 3.0_f64.sqrt();
+    let off_by_m = |gap_m: f64| {
+        let scenario = pendulum(reach_m - gap_m);
+        let verification = verify(&scenario, &swung(&scenario));
+        check(&verification, LINKS).passed
+    };
+    // 0.01 m are asked.
+    assert!(off_by_m(0.02));
+    assert!(off_by_m(0.01));
+    assert!(off_by_m(0.0091));
+    assert!(!off_by_m(0.0089));
+    assert!(!off_by_m(0.001));
+    assert!(!off_by_m(0.0));
+}
+
+/// Every arm moves from rest to rest by controls of its own.
+fn moving_arm() -> impl Strategy<Value = (Scenario, Trajectory)> {
+    let pushes = prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 3), 6);
+    (arm(2..=6), pushes).prop_filter_map(
+        "a start that keeps its clearances",
+        |(scenario, pushes)| {
+            let mut file = scenario.resolved().clone();
+            file.horizon = file::Horizon { duration_s: 6.0, steps: 6.0 };
+            file.collision.clearance_m = Some(0.02);
+            file.initial.joint_angles_deg.iter_mut().zip(0..).for_each(|(angle, joint)| {
+                *angle = 50.0 * f64::from(joint % 3) - 40.0;
+            });
+            let scenario = Scenario::from_file(file, Path::new("moving arm.json")).ok()?;
+            let joints = scenario.system().joint_count();
+            let control = |k: usize| (0..joints).map(|joint| pushes[joint][k]).collect();
+            let there: Vec<Vec<f64>> = (0..3).map(control).collect();
+            let back = there.iter().rev().map(|u| u.iter().map(|u| -u).collect());
+            let controls: Vec<Vec<f64>> = there.iter().cloned().chain(back).collect();
+            let plan = motion(&scenario, &controls);
+            Some((scenario, plan))
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
+
+    /// What thousands of samples find, the verifier knows, and where it finds more, so do they, nearly.
+    #[test]
+    fn nothing_is_missed_and_nothing_is_made_up((scenario, plan) in moving_arm()) {
+        let verification = verify(&scenario, &plan);
+        let dense = sampled_excess(&scenario, &plan, 1000);
+        for (name, dense) in [(LINKS, dense[0]), (BODY, dense[1])] {
+            let Some(found) = verification.check(name) else { continue };
+            let excess = found.limit - found.value;
+            prop_assert_eq!(found.passed, excess <= TOLERANCE_M);
+            if found.passed {
+                prop_assert!(dense <= TOLERANCE_M + 1e-9, "{}: {} where {} is", name, excess, dense);
+            } else {
+                prop_assert!(dense >= excess - 3e-3, "{}: {} where {} is", name, excess, dense);
+                prop_assert!(dense <= excess + 2e-4, "{}: {} where {} is", name, excess, dense);
+            }
+        }
+    }
+}

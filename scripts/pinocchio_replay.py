@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Replay plans with Pinocchio: does an independent library's model of the arm move as the plan says?
+
+For every folder with a verified plan: the model is built from the scenario in solution.json, the joints follow
+the controls of trajectory.csv exactly, and the base's attitude follows from the conserved momentum, integrated
+in small steps. Compared are attitude, joints, momentum at rest and the joint torques. Needs `pin` and `numpy`.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+
+# Steps of the replay in each step of the plan, at the least, and how far the base may turn in one, rad.
+SUBSTEPS = 4
+TURN = 0.02
+ATTITUDE = 2e-5
+JOINTS = 1e-6
+TORQUE = 1e-4
+LOOKED_AT = 25
+
+
+def main() -> int:
+    folders = sorted(path.parent for path in Path(sys.argv[1]).glob("*/solution.json"))
+    confirmed, wrong = 0, 0
+    for folder in folders:
+        solution = json.loads((folder / "solution.json").read_text(encoding="utf-8"))
+        if not solution["verification"]["passed"]:
+            continue
+        problems = replayed(solution["scenario"], folder / "trajectory.csv")
+        confirmed += not problems
+        wrong += bool(problems)
+        for problem in problems:
+            print(f"{folder.name}: {problem}")
+    print(f"Pinocchio {pin.__version__} confirms {confirmed} of {confirmed + wrong} verified plans")
+    return 1 if wrong else 0
+
+
+def replayed(scenario: dict, table: Path) -> list[str]:
+    """What does not agree."""
+    system = scenario["system"]
+    model = build(system)
+    time_s, states, controls, torques = read(table, len(system["links"]))
+    data, joints = model.createData(), controls.shape[1]
+    position, attitude = states[0, :3], states[0, 3:7]
+    angles, rates = states[0, 13 : 13 + joints], states[0, 13 + joints :]
+    turn = rotation(attitude)
+    velocity = np.r_[turn.T @ states[0, 7:10], states[0, 10:13], rates]
+    pin.computeCentroidalMomentum(model, data, configuration(position, attitude, angles), velocity)
+    momentum = data.hg.vector.copy()
+
+    def derivative(pose: np.ndarray, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        unit = pose[3:] / np.linalg.norm(pose[3:])
+        matrix = pin.computeCentroidalMap(model, data, configuration(pose[:3], unit, q))
+        twist = np.linalg.solve(matrix[:, :6], momentum - matrix[:, 6:] @ qd)
+        spin = twist[3:]
+        quaternion = 0.5 * np.r_[-unit[1:] @ spin, unit[0] * spin + np.cross(unit[1:], spin)]
+        return np.r_[rotation(unit) @ twist[:3], quaternion]
+
+    pose = np.r_[position, attitude]
+    worst_attitude = worst_joint = 0.0
+    for k, u in enumerate(controls):
+        step_s = time_s[k + 1] - time_s[k]
+        substeps = max(SUBSTEPS, math.ceil(step_s * np.linalg.norm(states[k, 10:13]) / TURN))
+        h = step_s / substeps
+        for _ in range(substeps):
+            moved = lambda s: (angles + s * rates + 0.5 * s * s * u, rates + s * u)
+            k1 = derivative(pose, *moved(0.0))
+            k2 = derivative(pose + h / 2 * k1, *moved(h / 2))
+            k3 = derivative(pose + h / 2 * k2, *moved(h / 2))
+            k4 = derivative(pose + h * k3, *moved(h))
+            pose = pose + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            angles, rates = moved(h)
+        pose[3:] /= np.linalg.norm(pose[3:])
+        node = states[k + 1]
+        off = min(np.abs(pose[3:] - node[3:7]).max(), np.abs(pose[3:] + node[3:7]).max())
+        worst_attitude = max(worst_attitude, off)
+        found = np.r_[angles, rates]
+        worst_joint = max(worst_joint, np.abs(found - node[13:]).max())
+    problems = []
+    if worst_attitude > ATTITUDE:
+        problems.append(f"attitude off by {worst_attitude:.1e}")
+    if worst_joint > JOINTS:
+        problems.append(f"joints off by {worst_joint:.1e}")
+    nodes = np.linspace(0, len(controls) - 1, min(LOOKED_AT, len(controls))).astype(int)
+    expected = np.array([torque(model, data, states[k], controls[k]) for k in nodes])
+    largest = np.abs(expected).max()
+    if largest > 0 and np.abs(expected - torques[nodes]).max() > TORQUE * largest:
+        problems.append(f"torques off by {np.abs(expected - torques[nodes]).max() / largest:.1e}")
+    return problems
+
+
+def torque(model: pin.Model, data: pin.Data, state: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Joint torques of the free-floating system at a state."""
+    joints = len(u)
+    turn = rotation(state[3:7])
+    q = configuration(state[:3], state[3:7], state[13 : 13 + joints])
+    v = np.r_[turn.T @ state[7:10], state[10:13], state[13 + joints :]]
+    mass = pin.crba(model, data, q)
+    mass = np.triu(mass) + np.triu(mass, 1).T
+    bias = pin.rnea(model, data, q, v, np.zeros(model.nv))
+    base = np.linalg.solve(mass[:6, :6], -bias[:6] - mass[:6, 6:] @ u)
+    return (mass @ np.r_[base, u] + bias)[6:]
+
+
+def build(system: dict) -> pin.Model:
+    """The model of a resolved system."""
+    model = pin.Model()
+    model.gravity.linear = np.zeros(3)
+    base = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
+    mass_kg = system["base"]["mass_kg"]
+    if system["base"].get("inertia_kg_m2") is None:
+        inertia = np.eye(3) * mass_kg * system["base"]["cube_side_m"] ** 2 / 6
+    else:
+        inertia = np.array(system["base"]["inertia_kg_m2"])
+    model.appendBodyToJoint(base, pin.Inertia(mass_kg, np.zeros(3), inertia), pin.SE3.Identity())
+    quaternion = system["mount"].get("rotation") or [1.0, 0.0, 0.0, 0.0]
+    frame = pin.SE3(rotation(np.array(quaternion)), np.array(system["mount"]["position_m"], float))
+    parent = base
+    is_modified = system.get("dh_convention") == "modified"
+    for index, row in enumerate(system["links"]):
+        alpha, theta = math.radians(row["alpha_deg"]), math.radians(row["theta_deg"])
+        twist, offset = about_x(alpha), np.array([row["a_m"], 0.0, row["d_m"]])
+        if is_modified:
+            placed = frame * pin.SE3(twist, twist @ offset)
+            segment = frame.actInv(placed.translation)
+            joint = model.addJoint(
+                parent, pin.JointModelRZ(), placed * pin.SE3(about_z(theta), np.zeros(3)), f"joint{index}"
+            )
+            own = row.get("inertial_frame") == "own"
+            body, axes = (joint, pin.SE3.Identity()) if own else (parent, frame)
+            after = pin.SE3.Identity()
+        else:
+            joint = model.addJoint(
+                parent, pin.JointModelRZ(), frame * pin.SE3(about_z(theta), np.zeros(3)), f"joint{index}"
+            )
+            after = pin.SE3(twist, offset)
+            body, axes = joint, after
+            segment = offset
+        add_link(model, body, axes, row, segment, is_modified)
+        frame, parent = after, joint
+    payload = system.get("payload")
+    if payload:
+        inertia = np.array(payload.get("inertia_kg_m2") or np.zeros((3, 3)))
+        model.appendBodyToJoint(parent, pin.Inertia(payload["mass_kg"], np.zeros(3), inertia), frame)
+    return model
+
+
+def add_link(
+    model: pin.Model, body: int, axes: pin.SE3, row: dict, segment: np.ndarray, is_modified: bool
+) -> None:
+    """The mass of a row: a rod along its segment where nothing else is given."""
+    mass_kg = row["mass_kg"]
+    if mass_kg == 0:
+        return
+    along = axes.rotation @ segment if is_modified else segment
+    start = axes.translation if is_modified else np.zeros(3)
+    center, inertia = row.get("center_of_mass_m"), row.get("inertia_kg_m2")
+    center = start + along / 2 if center is None else axes.act(np.array(center, float))
+    if inertia is None:
+        inertia = mass_kg / 12 * (along @ along * np.eye(3) - np.outer(along, along))
+    else:
+        inertia = axes.rotation @ np.array(inertia, float) @ axes.rotation.T
+    model.appendBodyToJoint(body, pin.Inertia(mass_kg, center, inertia), pin.SE3.Identity())
+
+
+def read(table: Path, joints: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    with open(table, encoding="utf-8") as file:
+        rows = list(csv.reader(file))[1:]
+    states = np.array([[float(cell) for cell in row[1 : 14 + 2 * joints]] for row in rows])
+    time_s = np.array([float(row[0]) for row in rows])
+    first = 14 + 2 * joints
+    controls = np.array([[float(cell) for cell in row[first : first + joints]] for row in rows[:-1]])
+    torques = np.array([[float(cell) for cell in row[first + joints : first + 2 * joints]] for row in rows[:-1]])
+    return time_s, states, controls, torques
+
+
+def configuration(position: np.ndarray, quaternion: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    return np.r_[position, quaternion[1:], quaternion[0], angles]
+
+
+def rotation(quaternion: np.ndarray) -> np.ndarray:
+    return pin.Quaternion(*(quaternion / np.linalg.norm(quaternion))).matrix()
+
+
+def about_x(angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def about_z(angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
