@@ -21,6 +21,10 @@ use crate::search::Search;
 /// How often a maneuver that costs far more than estimated is measured anew.
 const MOST_MEASURINGS: usize = 3;
 
+/// Trying remedies takes at most so many times as long as the plan itself, and a second.
+const REMEDY_SHARE: u32 = 2;
+const REMEDY_TIME: Duration = Duration::from_secs(1);
+
 /// Plans maneuvers and verifies what it planned.
 ///
 /// From the paper's constant guess the problem is solved on the asked grid. For any other guess,
@@ -169,10 +173,12 @@ impl<'a> Planner<'a> {
         let mut planned = Planned::new(scenario, &scaling, found, ending, &self.program)?;
         if self.tries_remedies {
             let threads = self.threads;
+            let deadline = started.elapsed() * (1 + REMEDY_SHARE) + REMEDY_TIME;
+            let limit = limit.map_or(deadline, |limit| limit.min(deadline));
             planned.solution.notes.extend(remedies(scenario, &planned, |changed| {
                 let mut is_stopped = false;
                 let mut watched = |record: &IterationRecord| {
-                    let late = limit.is_some_and(|limit| started.elapsed() > limit);
+                    let late = started.elapsed() > limit;
                     let control = if late { Control::Stop } else { observer(record) };
                     is_stopped |= control == Control::Stop;
                     control

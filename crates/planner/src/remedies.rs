@@ -1,7 +1,8 @@
 //! What would help where a plan misses its target or there is none: tried, not guessed.
 //!
 //! Each remedy is a change of the scenario that is planned and verified itself; the first that works is named.
-//! It takes at most [`MOST_TRIES`] more plans.
+//! It takes at most a few more plans, and no longer than the planner gives it; what is not finished by then is
+//! not mentioned.
 
 use std::path::Path;
 
@@ -66,7 +67,8 @@ pub(crate) fn remedies(
     notes
 }
 
-/// Whether the target of a slew was missed, or nothing was found at all.
+/// Whether the target of a slew was missed, or nothing was found at all. A detumble has no target that a longer
+/// duration would bring nearer.
 fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
     let asks_for_target = scenario.weights().attitude > 0.0;
     match (solution.status, scenario.maneuver()) {
@@ -74,7 +76,8 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
         (status, Maneuver::Slew(_)) if status.is_acceptable() => {
             asks_for_target && solution.terminal.attitude_error > righting_verifier::ATTITUDE_ERROR
         }
-        (status, _) => !status.is_acceptable(),
+        (status, Maneuver::Slew(_)) => !status.is_acceptable(),
+        (_, Maneuver::Detumble) => false,
     }
 }
 

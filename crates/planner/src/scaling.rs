@@ -41,6 +41,8 @@ const HARD_RATE: f64 = 1e5;
 const HARD_MISS: f64 = 1e-4;
 /// … because the effort is dearer than estimated, if the objective is above this.
 const DEAR: f64 = 10.0;
+/// A joint is near a limit from this share of it on.
+const NEAR_LIMIT: f64 = 0.9;
 /// Of a detumble, the weight of the joint rates in that of the base's rate, and the effort's in both.
 const HARD_DETUMBLE_JOINTS: f64 = 1e3;
 const HARD_DETUMBLE_EFFORT: f64 = 0.01;
@@ -99,7 +101,7 @@ impl Scaling {
         let end = solution.states.row(solution.states.len() - 1);
         let reached = found.coordinates.free_floating_state(end).attitude;
         let miss = reached.error_vector(&slew.target).norm();
-        if miss < HARD_MISS || solution.objective < DEAR {
+        if miss < HARD_MISS || solution.objective < DEAR || is_at_limits(measured, found) {
             return Ok(None);
         }
         let objective = self.objective * solution.objective;
@@ -180,7 +182,7 @@ pub(crate) fn beginning_s(scenario: &Scenario) -> f64 {
 }
 
 /// How long the slowest joint takes for half a turn, or for its range if that is less, from rest to rest.
-fn half_turn_s(scenario: &Scenario) -> f64 {
+pub(crate) fn half_turn_s(scenario: &Scenario) -> f64 {
     let limits = scenario.system().joint_limits.iter();
     let times = limits.map(|limits| {
         let (low, high) = limits.angle_range_rad();
@@ -188,6 +190,22 @@ fn half_turn_s(scenario: &Scenario) -> f64 {
         (high - low).min(PI) / rate + rate / acceleration
     });
     times.fold(0.0, f64::max)
+}
+
+/// Whether a joint is near its rate or acceleration limit most of the time: then that is in the way, not effort.
+fn is_at_limits(measured: &Scenario, found: &Found) -> bool {
+    let (solution, limits) = (&found.solution, &measured.system().joint_limits);
+    limits.iter().enumerate().any(|(joint, limits)| {
+        let is_near = |value: f64, limit: f64| value.abs() > NEAR_LIMIT * limit;
+        let rate = found.coordinates.joint_rate(joint);
+        let (u_max, rate_max) = (limits.acceleration_max_rad_s2, limits.rate_max_rad_s);
+        let steps = solution.controls.len();
+        let near = (0..steps).filter(|&step| {
+            is_near(solution.controls.row(step)[joint], u_max)
+                || is_near(solution.states.row(step)[rate], rate_max)
+        });
+        2 * near.count() > steps
+    })
 }
 
 /// Whether a scenario asks for the paper's solve, which is made as it is.
