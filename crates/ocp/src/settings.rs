@@ -40,7 +40,7 @@ pub enum Optimizer {
 /// What factorises Ipopt's linear systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LinearSolverChoice {
-    /// The stage solver, and MUMPS where it does not succeed.
+    /// The stage solver, and MUMPS where it does not succeed, unless the problem is infeasible.
     #[default]
     Auto,
     /// MUMPS, the general sparse solver that comes with Ipopt.
