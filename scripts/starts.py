@@ -92,8 +92,8 @@ the best of {HALTON_STARTS} low-discrepancy starts (`{{"starts": {HALTON_STARTS}
 start moves every joint smoothly to some angle; the angles are points of a Halton sequence. The best of a row
 is in bold, and so is what lies within {SAME:.1%} of it. The best known is no more than the best of these three.
 
-The automatic guess misses more than these tables show: against 45 starts of every kind, on the coarse grid, it
-missed the best optimum of 9 of 40 slews ([decisions.md](decisions.md#initial-guesses)).
+The automatic guess misses more than these tables show: of 38 slews of other arms too, it missed the best known
+plan of three by more than 1 % ([decisions.md](decisions.md#initial-guesses)).
 
 `make starts` plans all of it again and writes this page. Do not edit it.
 
