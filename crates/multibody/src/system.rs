@@ -99,6 +99,16 @@ impl System {
         self.links.iter().map(Link::length_m).sum()
     }
 
+    /// The length that the system is measured by: that of the arm stretched out, mount and all, m. Never
+    /// zero.
+    pub fn size_m(&self) -> f64 {
+        let size_m = self.mount.position_m.norm() + self.length_m();
+        match size_m > 0.0 {
+            true => size_m,
+            false => 1.0,
+        }
+    }
+
     /// Length of the links between two links (counted from zero) together, m: the two are never
     /// farther apart. Zero for neighbours, and for a link and itself.
     pub fn length_between_m(&self, a: usize, b: usize) -> f64 {

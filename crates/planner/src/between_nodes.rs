@@ -88,8 +88,7 @@ pub(crate) fn passed_limits(
 ) -> PassedLimits {
     let joint_limits = &scenario.system().joint_limits;
     let clearances = Clearances::new(scenario);
-    let size = clearances.system.mount().position_m.norm()
-        + clearances.system.links().iter().map(|link| link.length_m()).sum::<f64>();
+    let size = clearances.system.size_m();
     let lacking = (CLEARANCE_SHARE * clearances.clearance_m())
         .min(MOST_LACKING * size)
         .max(LEAST_LACKING * size);

@@ -65,7 +65,7 @@ impl Scaling {
             return Ok((scenario.clone(), Self { units: Units::SI, objective: 1.0 }));
         }
         let units = Units {
-            length_m: scenario.system().size_m(),
+            length_m: scenario.system().model.size_m(),
             mass_kg: scenario.system().model.total_mass(),
             time_s: beginning_s(scenario) / DURATION,
         };

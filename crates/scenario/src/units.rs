@@ -43,17 +43,6 @@ impl SystemDescription {
             ..self.clone()
         })
     }
-
-    /// The length that the system is measured by: that of the arm stretched out, mount and all, m. Never
-    /// zero.
-    pub fn size_m(&self) -> f64 {
-        let links: f64 = self.model.links().iter().map(righting_multibody::Link::length_m).sum();
-        let size_m = self.model.mount().position_m.norm() + links;
-        match size_m > 0.0 {
-            true => size_m,
-            false => 1.0,
-        }
-    }
 }
 
 impl Initial {

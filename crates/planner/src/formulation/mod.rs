@@ -222,8 +222,7 @@ impl Clearances {
 
     /// What the squared distance at `place` is measured by, and how much more is asked of it.
     fn measure(&self, place: usize) -> (f64, f64) {
-        let size = self.system.mount().position_m.norm()
-            + self.system.links().iter().map(|link| link.length_m()).sum::<f64>();
+        let size = self.system.size_m();
         let least = self.least_m(place);
         match self.is_relative && least > 0.0 && least < SMALL * size {
             true => (size * size.min(RELATIVE_TO * least), RELAXED),
