@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use righting_multibody::{ModelError, State, Units};
 use righting_results::IterationRecord;
 use righting_results::trajectory::{ControlInterval, Node, Trajectory};
-use righting_scenario::file::{Formulation, Guess, NamedGuess};
+use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 
 use crate::formulation::Coordinates;
@@ -61,7 +61,7 @@ impl Scaling {
     /// # Errors
     /// [`ModelError::Overflow`] when masses or lengths are beyond all measure.
     pub(crate) fn applied(scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
-        if is_paper(scenario) {
+        if scenario.solver().is_paper() {
             return Ok((scenario.clone(), Self { units: Units::SI, objective: 1.0 }));
         }
         let units = Units {
@@ -206,11 +206,6 @@ fn is_at_limits(measured: &Scenario, found: &Found) -> bool {
         });
         2 * near.count() > steps
     })
-}
-
-/// Whether a scenario asks for the paper's solve, which is made as it is.
-pub(crate) fn is_paper(scenario: &Scenario) -> bool {
-    scenario.solver().guess == Guess::Named(NamedGuess::Constant)
 }
 
 /// Weights with which the end is met to far below its tolerances, at a cost of effort near one.

@@ -184,14 +184,11 @@ impl Scenario {
         notes.extend(momentum_note);
         let horizon = horizon(&scenario.horizon, &place.key("horizon"))?;
         let weights = weights(&scenario.weights, &maneuver, &place.key("weights"))?;
+        let solver = solver(&scenario.solver, &place.key("solver"))?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
             Some(hard) => hard,
-            None => {
-                let is_paper = scenario.solver.guess == Some(Guess::Named(NamedGuess::Constant));
-                !is_paper && !scenario.weights.has_end()
-            }
+            None => !solver.is_paper() && !scenario.weights.has_end(),
         };
-        let solver = solver(&scenario.solver, &place.key("solver"))?;
         let clearance_place = place.key("collision").key("clearance_m");
         let clearance_m = match scenario.collision.clearance_m {
             Some(clearance_m) => clearance_place.within(clearance_m, CLEARANCE_M)?,
@@ -569,6 +566,12 @@ fn solver(solver: &file::Solver, place: &Location) -> Result<SolverSettings, Err
 }
 
 impl SolverSettings {
+    /// Whether they ask for the paper's solve, which is made as it is: from its constant guess, in the units of
+    /// the file, with limits at the nodes alone.
+    pub fn is_paper(&self) -> bool {
+        self.guess == Guess::Named(NamedGuess::Constant)
+    }
+
     fn to_file(self) -> file::Solver {
         file::Solver {
             formulation: Some(self.formulation),

@@ -23,7 +23,7 @@ use righting_symbolic::{Expr, trace};
 
 pub(crate) use coordinates::Coordinates;
 use righting_scenario::collision::{Between, CollisionModel};
-use righting_scenario::file::{Formulation, Guess, NamedGuess};
+use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use stage_limits::StageLimits;
 
@@ -89,9 +89,9 @@ impl FormulatedManeuver {
                 stage_limits.values(coordinates, clearances, (x, u), h)
             });
         // The paper transcribes all states, and which ones there are decides where its guess leads.
-        let problem = match scenario.solver().guess {
-            Guess::Named(NamedGuess::Constant) => problem.keep_passive_states(),
-            _ => problem,
+        let problem = match scenario.solver().is_paper() {
+            true => problem.keep_passive_states(),
+            false => problem,
         };
         Self { problem, coordinates, initial }
     }
@@ -165,7 +165,7 @@ impl Clearances {
             system: Arc::new(scenario.system().model.clone()),
             collision: scenario.collision().clone(),
             varying: Vec::new(),
-            is_relative: scenario.solver().guess != Guess::Named(NamedGuess::Constant),
+            is_relative: !scenario.solver().is_paper(),
         };
         clearances.varying = trace(|| {
             let q = Expr::symbols("q", clearances.system.joint_count());

@@ -6,7 +6,6 @@ use righting_ocp::{Grid, OcpError, OcpSolution};
 use righting_scenario::scenario::Scenario;
 
 use super::{Search, settings, stoppable};
-use crate::scaling::is_paper;
 
 /// How far off a plan's last attitude may be for the steps of its integration, rad: a fifth of what its
 /// verification tolerates.
@@ -20,7 +19,7 @@ const SPIN_ERROR: f64 = 0.1;
 /// The Runge–Kutta steps that each step of the asked grid needs for the base's first spin alone; none if one
 /// will do.
 pub(super) fn substeps_of_spin(scenario: &Scenario) -> Option<NonZeroUsize> {
-    if is_paper(scenario) {
+    if scenario.solver().is_paper() {
         return None;
     }
     let horizon = scenario.horizon();
@@ -51,7 +50,8 @@ impl Search<'_> {
     ) -> Result<OcpSolution, OcpError> {
         // After the beginning of a longer horizon what is off there drifts on.
         let allowed_rad = ACCURATE_RAD * grid.duration_s() / self.grid.duration_s();
-        while solution.status.is_success() && !is_paper(self.scenario) && !self.is_interrupted() {
+        let is_paper = self.scenario.solver().is_paper();
+        while solution.status.is_success() && !is_paper && !self.is_interrupted() {
             let error_rad = self.model.integration_error_rad(grid, &solution)?;
             let substeps = self.model.asked_functions().substeps();
             let Some(more) = more_substeps(substeps, error_rad, allowed_rad) else { break };

@@ -7,7 +7,6 @@ use super::model::Model;
 use super::{Search, settings, stoppable};
 use crate::between_nodes::{PassedLimits, passed_limits};
 use crate::formulation::{Clearances, StageLimits};
-use crate::scaling::is_paper;
 
 /// How often limits are added, at most.
 const ROUNDS: usize = 4;
@@ -30,7 +29,7 @@ impl Search<'_> {
     ) -> Result<(OcpSolution, bool), OcpError> {
         let (mut solution, mut is_minimum) = (solution, is_minimum);
         // The paper states its limits at the nodes.
-        if is_paper(self.scenario) {
+        if self.scenario.solver().is_paper() {
             return Ok((solution, is_minimum));
         }
         let mut passed = self.passed_limits(&solution);

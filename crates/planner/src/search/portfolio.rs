@@ -31,7 +31,7 @@ const SAME_OPTIMUM: f64 = 5e-3;
 
 /// Whether guesses are ranked at all.
 pub(super) fn is_ranked(scenario: &Scenario) -> bool {
-    !matches!(scenario.solver().guess, file::Guess::Named(NamedGuess::Constant))
+    !scenario.solver().is_paper()
 }
 
 /// The guesses to rank, batch by batch; none if nothing is ranked.

@@ -1,7 +1,7 @@
 //! How the optimizer is set for each kind of solve.
 
 use righting_ocp::{LinearSolverChoice, NlpScaling, Optimizer, Options, Settings};
-use righting_scenario::file::{self, NamedGuess};
+use righting_scenario::file;
 use righting_scenario::scenario::{Maneuver, Scenario};
 
 /// Tolerance of ranking: tight enough for the barrier not to change the order of small objectives …
@@ -76,9 +76,9 @@ pub(super) fn delivered(scenario: &Scenario) -> Settings {
 /// Of the asked grid from the constant guess: where the scenario asks for that guess, Ipopt is as it is
 /// by itself, as the paper used it.
 pub(super) fn from_constant_guess(scenario: &Scenario) -> Settings {
-    match scenario.solver().guess {
-        file::Guess::Named(NamedGuess::Constant) => plain(scenario),
-        _ => delivered(scenario),
+    match scenario.solver().is_paper() {
+        true => plain(scenario),
+        false => delivered(scenario),
     }
 }
 
