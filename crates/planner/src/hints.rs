@@ -1,14 +1,12 @@
 //! What stands in the way where a plan misses its target or there is none.
 
-use std::f64::consts::TAU;
-
 use righting_results::solution::{Status, Terminal};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::scenario::{Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
 use crate::planned::Planned;
-use crate::scaling::half_turn_s;
+use crate::spin::fast_spin;
 
 /// So close to a limit, as a share of it, it counts as reached.
 const AT_LIMIT: f64 = 1e-3;
@@ -20,9 +18,6 @@ const DURATION_MARGIN: f64 = 0.1;
 const MOST_TIMES_LONGER: f64 = 3.0;
 /// … and this is as good.
 const TIMES_LONGER: f64 = 1.5;
-
-/// A base that turns more often than this while the slowest joint makes half a turn spins fast.
-const FAST_TURNS: f64 = 10.0;
 
 /// What stood in the way of a solve that did not converge or misses its target; nothing to say after any
 /// other.
@@ -44,18 +39,6 @@ pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status
             reasons
         }
     }
-}
-
-/// That the base spins too fast for the arm to follow, if it does.
-fn fast_spin(scenario: &Scenario) -> Option<String> {
-    let spin_rad_s = scenario.initial().angular_rate_rad_s.norm();
-    let turns = spin_rad_s * half_turn_s(scenario) / TAU;
-    (turns > FAST_TURNS).then(|| {
-        format!(
-            "the base turns {turns:.0} times while the slowest joint makes half a turn: no start that was \
-             tried slows it"
-        )
-    })
 }
 
 /// What a slew reached instead of its target.

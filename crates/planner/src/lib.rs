@@ -42,6 +42,7 @@ mod remedies;
 mod scaling;
 mod search;
 pub mod sparsity;
+mod spin;
 mod symmetry;
 
 pub use formulation::FormulatedManeuver;

@@ -7,8 +7,6 @@
 //!
 //! The constant guess is the paper's solve, and keeps the units of the file.
 
-use std::f64::consts::PI;
-
 use righting_multibody::{ModelError, State, Units};
 use righting_results::IterationRecord;
 use righting_results::trajectory::{ControlInterval, Node, Trajectory};
@@ -18,13 +16,10 @@ use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 use crate::formulation::Coordinates;
 use crate::initial_guess::InitialGuesses;
 use crate::search::Found;
+use crate::spin::beginning_s;
 
 /// Duration of every maneuver in its own unit of time: that of the paper's, so that its unit is a second.
 const DURATION: f64 = 30.0;
-/// A base that turns farther than this by itself during its maneuver spins for long, rad.
-const LONG_SPIN_RAD: f64 = 84.0;
-/// The beginning that decides such a maneuver, in times that the slowest joint takes for half a turn.
-const HALF_TURNS: f64 = 2.5;
 /// Steps on which the effort of a slew is estimated.
 const ESTIMATE_STEPS: usize = 24;
 /// The smallest slew whose effort is estimated, rad: what the end may miss anyway.
@@ -167,29 +162,6 @@ impl Scaling {
         Trajectory::new(nodes.collect(), intervals.collect())
             .expect("as many of each as there were")
     }
-}
-
-/// How much of a horizon decides the maneuver: all of it, but of a long detumble of a fast spin only as long
-/// as the slowest joint takes a few times for half a turn. Nothing is lost when the arm holds still in the
-/// rest, which no coarse grid could follow.
-pub(crate) fn beginning_s(scenario: &Scenario) -> f64 {
-    let duration_s = scenario.horizon().duration_s;
-    let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
-    match spin_rad > LONG_SPIN_RAD {
-        true => duration_s.min(HALF_TURNS * half_turn_s(scenario)),
-        false => duration_s,
-    }
-}
-
-/// How long the slowest joint takes for half a turn, or for its range if that is less, from rest to rest.
-pub(crate) fn half_turn_s(scenario: &Scenario) -> f64 {
-    let limits = scenario.system().joint_limits.iter();
-    let times = limits.map(|limits| {
-        let (low, high) = limits.angle_range_rad();
-        let (rate, acceleration) = (limits.rate_max_rad_s, limits.acceleration_max_rad_s2);
-        (high - low).min(PI) / rate + rate / acceleration
-    });
-    times.fold(0.0, f64::max)
 }
 
 /// Whether a joint is near its rate or acceleration limit most of the time: then that is in the way, not effort.

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use righting_ocp::{Grid, OcpError};
 use righting_scenario::scenario::{Horizon, Scenario};
 
-use crate::scaling::beginning_s;
+use crate::spin::beginning_s;
 
 /// Steps of the grid on which guesses are ranked: coarse enough that five of them cost less than
 /// the asked grid, fine enough to tell the optima apart.
