@@ -143,7 +143,8 @@ impl<'a> Search<'a> {
         let started = Instant::now();
         let is_part = self.ranking.asked_steps < self.grid.steps();
         let mut found = None;
-        for solution in self.coarse.clone().into_iter().take(MOST_REFINED) {
+        for place in 0..self.coarse.len().min(MOST_REFINED) {
+            let solution = self.coarse[place].clone();
             found = if is_part { self.held_after(solution)? } else { self.refined(solution)? };
             if found.is_some() || self.is_interrupted() {
                 break;
@@ -200,14 +201,15 @@ impl<'a> Search<'a> {
         if let (Some(earlier), Some(first)) = (self.earlier, batches.first_mut()) {
             first.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
         }
-        let (mut solutions, mut agreed) = (Vec::new(), false);
-        for (number, batch) in batches.into_iter().enumerate() {
-            solutions.append(&mut self.converged(grid, batch)?);
-            let objectives: Vec<f64> = solutions.iter().map(|found| found.objective).collect();
-            agreed = portfolio::agree(number + 1, &objectives);
+        let mut batches = batches.into_iter();
+        let Some(first) = batches.next() else { return Ok(Vec::new()) };
+        let mut solutions = self.converged(grid, first)?;
+        let agreed = portfolio::agree(&solutions);
+        for batch in batches {
             if agreed || self.is_interrupted() {
                 break;
             }
+            solutions.append(&mut self.converged(grid, batch)?);
         }
         self.hop(grid, &mut solutions, portfolio::patience(self.scenario, agreed))?;
         solutions.sort_by(|a, b| a.objective.total_cmp(&b.objective));

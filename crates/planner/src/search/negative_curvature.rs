@@ -2,7 +2,6 @@
 
 use righting_ocp::{Curvature, InitialGuess, OcpError, OcpSolution, Samples, Settings};
 
-use super::batch::Batch;
 use super::{Search, portfolio, settings};
 use crate::initial_guess::InitialGuesses;
 
@@ -81,15 +80,9 @@ impl Search<'_> {
             .chain(others.into_iter().skip(first).take(GUESSES))
             .map(|start| (start, cold.clone()))
             .collect();
-        let batch = Batch { model, grid, starts: &starts };
-        let mut solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
-        for solution in &mut solutions {
-            self.attempts.append(&mut solution.attempts);
-        }
-        let is_better = |solution: &OcpSolution| {
-            solution.status.is_success() && solution.objective < saddle.objective
-        };
-        Ok(solutions.into_iter().filter(is_better).collect())
+        let mut solutions = self.converged(grid, starts)?;
+        solutions.retain(|solution| solution.objective < saddle.objective);
+        Ok(solutions)
     }
 }
 

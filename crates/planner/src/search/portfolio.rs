@@ -1,6 +1,6 @@
 //! Which initial guesses are ranked.
 
-use righting_ocp::InitialGuess;
+use righting_ocp::{InitialGuess, OcpSolution};
 use righting_scenario::file::{self, LowDiscrepancyStarts, NamedGuess};
 use righting_scenario::scenario::{MAX_STARTS, Maneuver, Scenario};
 
@@ -75,11 +75,11 @@ pub(super) fn ranked_guesses(
     }
 }
 
-/// Whether the objectives found after so many batches say that no more of them are needed.
-pub(super) fn agree(batches: usize, objectives: &[f64]) -> bool {
-    let least = objectives.iter().copied().fold(f64::INFINITY, f64::min);
-    let same = objectives.iter().filter(|&&found| found <= least * (1.0 + SAME_OPTIMUM)).count();
-    batches == 1 && same >= AGREEING
+/// Whether so many solutions of the first batch are the best one that no more starts are needed.
+pub(super) fn agree(solutions: &[OcpSolution]) -> bool {
+    let objectives = solutions.iter().map(|solution| solution.objective);
+    let least = objectives.clone().fold(f64::INFINITY, f64::min);
+    objectives.filter(|&found| found <= least * (1.0 + SAME_OPTIMUM)).count() >= AGREEING
 }
 
 /// How many rounds of hops from the best optimum may bring nothing before the search ends; none are made with
