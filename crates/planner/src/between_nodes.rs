@@ -7,7 +7,7 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use righting_ocp::Samples;
-use righting_scenario::{JointLimits, Scenario};
+use righting_scenario::JointLimits;
 
 use crate::formulation::{Clearances, Coordinates};
 use approach::Approach;
@@ -80,20 +80,19 @@ impl Step<'_> {
 /// Which limits a motion passes between its nodes: `states` are the states there, one row more than
 /// `controls`, and `duration` is the length of a step.
 pub(crate) fn passed_limits(
-    scenario: &Scenario,
+    joint_limits: &[JointLimits],
+    clearances: &Clearances,
     coordinates: &Coordinates,
     states: &Samples,
     controls: &Samples,
     duration: f64,
 ) -> PassedLimits {
-    let joint_limits = &scenario.system().joint_limits;
-    let clearances = Clearances::new(scenario);
     let size = clearances.system.size_m();
     let lacking = (CLEARANCE_SHARE * clearances.clearance_m())
         .min(MOST_LACKING * size)
         .max(LEAST_LACKING * size);
     let mut passed = PassedLimits::default();
-    let mut approach = Approach::new(&clearances, lacking);
+    let mut approach = Approach::new(clearances, lacking);
     for ((x, next), u) in states.rows().zip(states.rows().skip(1)).zip(controls.rows()) {
         let step = Step {
             angles: coordinates.joint_angles(x),

@@ -60,7 +60,8 @@ fn passed(scenario: &Scenario, accelerations: &[Vec<f64>]) -> PassedLimits {
         states.push(&state(&angles, &rates));
         controls.push(u);
     }
-    passed_limits(scenario, &coordinates, &states, &controls, 1.0)
+    let (joint_limits, clearances) = (&scenario.system().joint_limits, Clearances::new(scenario));
+    passed_limits(joint_limits, &clearances, &coordinates, &states, &controls, 1.0)
 }
 
 /// From 60° on the one side to 60° on the other, at constant rate in the middle of three steps.

@@ -6,7 +6,7 @@ use righting_scenario::file::Formulation;
 use super::model::Model;
 use super::{Search, settings, stoppable};
 use crate::between_nodes::{PassedLimits, passed_limits};
-use crate::formulation::{Clearances, StageLimits};
+use crate::formulation::StageLimits;
 
 /// How often limits are added, at most.
 const ROUNDS: usize = 4;
@@ -68,9 +68,16 @@ impl Search<'_> {
     }
 
     fn passed_limits(&self, solution: &OcpSolution) -> PassedLimits {
+        self.passed_by(&self.model, self.grid, solution)
+    }
+
+    /// What a solution of a model passes between the nodes of its grid.
+    fn passed_by(&self, model: &Model, grid: Grid, solution: &OcpSolution) -> PassedLimits {
+        let joint_limits = &self.scenario.system().joint_limits;
         let OcpSolution { states, controls, .. } = solution;
-        let coordinates = &self.model.coordinates;
-        passed_limits(self.scenario, coordinates, states, controls, self.grid.step_s())
+        let Model { coordinates, .. } = model;
+        let step_s = grid.step_s();
+        passed_limits(joint_limits, &self.clearances, coordinates, states, controls, step_s)
     }
 
     /// Adds limits; false if that changes nothing. Whoever is passed again is stated at more places.
@@ -192,17 +199,14 @@ impl Search<'_> {
     /// Whether things go through each other in a solution on the coarse grid.
     fn is_crossing(&self, grid: Grid, solution: &OcpSolution) -> bool {
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
-        let OcpSolution { states, controls, .. } = solution;
-        let coordinates = &model.coordinates;
-        passed_limits(self.scenario, coordinates, states, controls, grid.step_s()).is_crossing()
+        self.passed_by(model, grid, solution).is_crossing()
     }
 
     fn stated_within_steps(&self) -> String {
         let limits = &self.stage_limits;
         let joints = limits.joints.keys().map(|joint| format!("the angle of joint {}", joint + 1));
-        let clearances = Clearances::new(self.scenario);
         let distances = limits.clearances.iter().map(|(&place, &parts)| {
-            let between = clearances.between(place);
+            let between = self.clearances.between(place);
             let places = if parts == 2 { "place" } else { "places" };
             format!("the clearance of {between} (at {} {places} in every step)", parts - 1)
         });

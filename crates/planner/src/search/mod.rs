@@ -35,7 +35,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::{Coordinates, StageLimits};
+use crate::formulation::{Clearances, Coordinates, StageLimits};
 use batch::Batch;
 use grids::Ranking;
 use model::Model;
@@ -52,6 +52,8 @@ pub(crate) struct Search<'a> {
     ranking_model: Option<Model>,
     /// What both state within the steps too.
     stage_limits: StageLimits,
+    /// The distances that the joints decide.
+    clearances: Clearances,
     /// The asked grid.
     grid: Grid,
     /// What guesses are ranked on.
@@ -120,6 +122,7 @@ impl<'a> Search<'a> {
             model,
             ranking_model,
             stage_limits,
+            clearances: Clearances::new(scenario),
             ranking,
             ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
