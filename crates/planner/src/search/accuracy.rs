@@ -16,17 +16,17 @@ const MOST_SUBSTEPS: usize = 32;
 /// nutates (0.068) and rounded up.
 const SPIN_ERROR: f64 = 0.1;
 
-/// The Runge–Kutta steps that each step of the asked grid needs for the base's first spin alone; none if one
-/// will do.
-pub(super) fn substeps_of_spin(scenario: &Scenario) -> Option<NonZeroUsize> {
+/// The Runge–Kutta steps that each step of the asked grid needs for the base's first spin alone.
+pub(super) fn substeps_of_spin(scenario: &Scenario) -> NonZeroUsize {
+    let one = NonZeroUsize::MIN;
     if scenario.solver().is_paper() {
-        return None;
+        return one;
     }
     let horizon = scenario.horizon();
     let spin_rad = horizon.duration_s * scenario.initial().angular_rate_rad_s.norm();
     let step_rad = spin_rad / horizon.steps as f64;
     let error_rad = SPIN_ERROR * spin_rad * step_rad.powi(4);
-    more_substeps(NonZeroUsize::MIN, error_rad, ACCURATE_RAD)
+    more_substeps(one, error_rad, ACCURATE_RAD).unwrap_or(one)
 }
 
 /// How many Runge–Kutta steps it takes instead of `substeps`, which are off by so much, to be off by no more than

@@ -1,10 +1,9 @@
 //! Solving again where a solution passes its limits between the nodes.
 
 use righting_ocp::{Grid, InitialGuess, OcpError, OcpSolution, close_guess_settings};
-use righting_scenario::file::Formulation;
 
 use super::model::Model;
-use super::{Search, settings, stoppable};
+use super::{Search, compiled, settings, stoppable};
 use crate::between_nodes::{PassedLimits, passed_limits};
 use crate::formulation::StageLimits;
 
@@ -102,18 +101,10 @@ impl Search<'_> {
     }
 
     fn compile_again(&mut self) -> Result<(), OcpError> {
-        let compiled =
-            |form| Model::compile(self.scenario, form, self.ranking.substeps, &self.stage_limits);
-        let mut model = compiled(self.scenario.solver().formulation)?;
         let substeps = self.model.asked_functions().substeps();
-        if substeps.get() > 1 {
-            model.take_substeps(substeps)?;
-        }
-        let ranking_model = match self.ranking_model {
-            Some(_) => Some(compiled(Formulation::Reduced)?),
-            None => None,
-        };
-        (self.model, self.ranking_model) = (model, ranking_model);
+        let is_ranked_apart = self.ranking_model.is_some();
+        (self.model, self.ranking_model) =
+            compiled(self.scenario, self.ranking, &self.stage_limits, substeps, is_ranked_apart)?;
         Ok(())
     }
 

@@ -104,19 +104,13 @@ impl<'a> Search<'a> {
         on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
-        let formulation = scenario.solver().formulation;
         let stage_limits = StageLimits::default();
         let ranking = Ranking::of(scenario);
-        let compiled = |form| Model::compile(scenario, form, ranking.substeps, &stage_limits);
-        let mut model = compiled(formulation)?;
-        if let Some(substeps) = accuracy::substeps_of_spin(scenario) {
-            model.take_substeps(substeps)?;
-        }
+        let substeps = accuracy::substeps_of_spin(scenario);
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
-        let ranking_model = match ranks && formulation != Formulation::Reduced {
-            true => Some(compiled(Formulation::Reduced)?),
-            false => None,
-        };
+        let is_ranked_apart = ranks && scenario.solver().formulation != Formulation::Reduced;
+        let (model, ranking_model) =
+            compiled(scenario, ranking, &stage_limits, substeps, is_ranked_apart)?;
         Ok(Self {
             scenario,
             model,
@@ -290,6 +284,24 @@ impl<'a> Search<'a> {
         self.attempts.append(&mut solution.attempts);
         Ok(solution)
     }
+}
+
+/// The model in the asked form, whose steps take so many Runge–Kutta steps, and one in the reduced form if
+/// guesses are ranked in that apart.
+fn compiled(
+    scenario: &Scenario,
+    ranking: Ranking,
+    stage_limits: &StageLimits,
+    substeps: NonZeroUsize,
+    is_ranked_apart: bool,
+) -> Result<(Model, Option<Model>), OcpError> {
+    let in_form = |form| Model::compile(scenario, form, ranking.substeps, stage_limits);
+    let mut model = in_form(scenario.solver().formulation)?;
+    if substeps > NonZeroUsize::MIN {
+        model.take_substeps(substeps)?;
+    }
+    let apart = is_ranked_apart.then(|| in_form(Formulation::Reduced)).transpose()?;
+    Ok((model, apart))
 }
 
 /// Passes iterations on until one is answered with a stop.

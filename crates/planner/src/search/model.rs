@@ -21,11 +21,12 @@ pub(super) struct Model {
     pub(super) coordinates: Coordinates,
     /// x_0.
     pub(super) initial: Vec<f64>,
-    pub(super) functions: StageFunctions,
-    /// The same with one Runge–Kutta step in each step of the grid.
+    /// With one Runge–Kutta step in each step of the grid.
     plain: StageFunctions,
-    /// The same for the asked grid, if a step of that needs more Runge–Kutta steps than one.
-    finer: Option<StageFunctions>,
+    /// With several, for coarser grids than the asked one, if their steps need them.
+    ranking: Option<StageFunctions>,
+    /// The same for the asked grid.
+    asked: Option<StageFunctions>,
     /// Length of a step of the asked grid.
     asked_step_s: f64,
 }
@@ -42,14 +43,11 @@ impl Model {
         let FormulatedManeuver { problem, coordinates, initial } =
             FormulatedManeuver::in_form(scenario, formulation, stage_limits);
         let plain = StageFunctions::compile(&problem)?;
-        let several = match substeps.get() {
-            1 => None,
-            _ => Some(plain.with_substeps(substeps)?),
-        };
+        let needs_several = substeps > NonZeroUsize::MIN;
         Ok(Self {
-            functions: several.unwrap_or_else(|| plain.clone()),
+            ranking: needs_several.then(|| plain.with_substeps(substeps)).transpose()?,
             plain,
-            finer: None,
+            asked: None,
             asked_step_s: scenario.horizon().step_s(),
             coordinates,
             initial,
@@ -66,7 +64,7 @@ impl Model {
             coordinates: &self.coordinates,
             initial: &self.initial,
             steps,
-            substeps: self.functions.substeps().get(),
+            substeps: self.ranking_functions().substeps().get(),
         }
     }
 
@@ -79,7 +77,8 @@ impl Model {
     ) -> Result<OcpSolution, OcpError> {
         // Steps as long as those of the asked grid need as many Runge–Kutta steps.
         let is_as_coarse = grid.step_s() < self.asked_step_s * (1.0 + SAME_STEP);
-        let functions = if is_as_coarse { self.asked_functions() } else { &self.functions };
+        let functions =
+            if is_as_coarse { self.asked_functions() } else { self.ranking_functions() };
         let mut program = MultipleShooting::new(functions, grid, &self.initial)?;
         let mut stall = StallCheck::default();
         program.solve(&OcpStart::Guess(guess), settings, |iteration| {
@@ -87,14 +86,19 @@ impl Model {
         })
     }
 
+    /// What coarser grids than the asked one are solved with.
+    fn ranking_functions(&self) -> &StageFunctions {
+        self.ranking.as_ref().unwrap_or(&self.plain)
+    }
+
     /// What the asked grid is solved with.
     pub(super) fn asked_functions(&self) -> &StageFunctions {
-        self.finer.as_ref().unwrap_or(&self.plain)
+        self.asked.as_ref().unwrap_or(&self.plain)
     }
 
     /// From here on, each step of the asked grid is integrated in so many Runge–Kutta steps.
     pub(super) fn take_substeps(&mut self, substeps: NonZeroUsize) -> Result<(), OcpError> {
-        self.finer = Some(self.plain.with_substeps(substeps)?);
+        self.asked = Some(self.plain.with_substeps(substeps)?);
         Ok(())
     }
 
@@ -126,8 +130,8 @@ impl Model {
         let on_iteration = |iteration: &righting_ocp::Iteration| {
             stall.watched(record(iteration), &mut on_iteration)
         };
-        let Self { functions, initial, .. } = self;
-        let last_functions = self.asked_functions();
+        let (functions, last_functions) = (self.ranking_functions(), self.asked_functions());
+        let initial = &self.initial;
         MeshRefinement { functions, last_functions, initial, grid, between, settings }
             .refine(coarse.point, on_iteration)
     }
