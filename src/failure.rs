@@ -93,6 +93,8 @@ pub enum Failure {
     NoPlan {
         /// How it ended.
         status: Status,
+        /// Whether its notes say why.
+        has_notes: bool,
     },
     /// The optimizer had nothing to start from.
     #[error("no acceptable plan: {0}")]

@@ -40,13 +40,12 @@ impl Failure {
             }
             Self::OtherArm { .. } => Some("a warm start is an earlier plan of the scenario's arm"),
             Self::OutputFolder { .. } => Some("name another folder"),
-            Self::NoPlan { status: Status::Infeasible } => {
-                Some("a longer duration, a smaller angle or wider limits may make it possible")
-            }
-            Self::NoPlan { status: Status::IterationLimit } => {
+            Self::NoPlan { status: Status::IterationLimit, .. } => {
                 Some("raise solver.max_iterations, or try solver.guess \"auto\"")
             }
-            Self::NoPlan { .. } => Some("the notes say what stood in the way, and what was tried"),
+            Self::NoPlan { has_notes: true, .. } => {
+                Some("the notes say what stood in the way, and what was tried")
+            }
             Self::Impossible(_) => Some("`righting explain` says what this arm can do"),
             Self::NotSearched(ReachError::NoAngle(_)) => Some("vary the duration instead"),
             Self::OutOfReach { .. } => Some(

@@ -128,7 +128,8 @@ fn conclude(solution: &Solution) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     if !solution.status.is_acceptable() {
-        return Err(Failure::NoPlan { status: solution.status });
+        let has_notes = !solution.notes.is_empty();
+        return Err(Failure::NoPlan { status: solution.status, has_notes });
     }
     Failure::of_verification(solution).map_or(Ok(()), Err)
 }

@@ -154,7 +154,7 @@ fn planned(scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure
     match solution.status {
         Status::Interrupted => Err(Failure::Interrupted),
         status if status.is_acceptable() => Ok(Planned { scenario, solution, trajectory }),
-        status => Err(Failure::NoPlan { status }),
+        status => Err(Failure::NoPlan { status, has_notes: false }),
     }
 }
 
