@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::axis::Range;
 use crate::body_view::{self, BodyView, GAP, SIDE, VIEWS};
+use crate::heading::{heading, legend_entry, next_line};
 use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
 
@@ -32,19 +33,14 @@ pub fn envelope_svg(
     let height = top + 2.0 * row_step;
     let subtitle = "Momentum and torque envelopes of the arm and of reaction wheels, body axes";
     let mut svg = Svg::new(width, height, name, subtitle);
-    let mut base = style::MARGIN + style::TITLE_SIZE;
-    svg.text([left, base], Anchor::Start, style::TITLE_SIZE, style::INK, name);
-    base += style::LABEL_SIZE + 7.0;
-    svg.text([left, base], Anchor::Start, style::LABEL_SIZE, style::FAINT_INK, subtitle);
-    base += style::LABEL_SIZE + 7.0;
+    let base = next_line(heading(&mut svg, left, name, subtitle));
     for (i, (stroke, label)) in
         [(ARM, "arm, true extent"), (SAMPLED, "arm, hull of samples"), (WHEELS, "wheels")]
             .into_iter()
             .enumerate()
     {
         let x = left + 190.0 * i as f64;
-        svg.line([x, base - 4.0], [x + 26.0, base - 4.0], stroke);
-        svg.text([x + 32.0, base], Anchor::Start, style::SMALL_SIZE, style::INK, label);
+        legend_entry(&mut svg, [x, base], stroke, label);
     }
     for (row, (outlines, quantity, unit)) in
         [(momentum_n_m_s, "H", "N m s"), (torque_n_m, "T", "N m")].into_iter().enumerate()

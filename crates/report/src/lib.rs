@@ -34,6 +34,7 @@ mod error;
 mod facts;
 mod figure;
 mod figure_writer;
+mod heading;
 mod joints;
 mod maneuvers;
 mod momentum;

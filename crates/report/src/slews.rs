@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use righting_sweep::Slews;
 
 use crate::axis::Range;
+use crate::heading::heading;
 use crate::number::drawn;
 use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
@@ -30,11 +31,8 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
     let height = top + SIDE + LEGEND_HEIGHT;
     let subtitle = subtitle(slews);
     let mut svg = Svg::new(width, height, name, &subtitle);
-    let base = style::MARGIN + style::TITLE_SIZE;
     let left = style::MARGIN;
-    svg.text([left, base], Anchor::Start, style::TITLE_SIZE, style::INK, name);
-    let base = base + style::LABEL_SIZE + 7.0;
-    svg.text([left, base], Anchor::Start, style::LABEL_SIZE, style::FAINT_INK, &subtitle);
+    let base = heading(&mut svg, left, name, &subtitle);
 
     let costs = costs(slews);
     let largest = slews.points.iter().map(|slew| slew.angle_deg.abs()).fold(1e-9, f64::max);

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use crate::body_view::{self, BodyView, GAP, SIDE, VIEWS};
+use crate::heading::{heading, legend_entry, next_line};
 use crate::style;
 use crate::svg::{Anchor, Stroke, Svg};
 
@@ -28,17 +29,12 @@ pub fn turn_rates_svg(
     let height = top + SIDE + style::TIME_AXIS_HEIGHT + style::ROW_GAP;
     let subtitle = "Turn rates of the base that loops of the joints keep up, body axes";
     let mut svg = Svg::new(width, height, name, subtitle);
-    let mut base = style::MARGIN + style::TITLE_SIZE;
-    svg.text([left, base], Anchor::Start, style::TITLE_SIZE, style::INK, name);
-    base += style::LABEL_SIZE + 7.0;
-    svg.text([left, base], Anchor::Start, style::LABEL_SIZE, style::FAINT_INK, subtitle);
-    base += style::LABEL_SIZE + 7.0;
+    let base = next_line(heading(&mut svg, left, name, subtitle));
     let legend = [("ellipsoid", OUTLINE)].into_iter();
     let legend = legend.chain([0, 1, 2].map(|k| (NAMES[k], principal(k))));
     for (i, (label, stroke)) in legend.chain(asked.map(|_| ("axis asked", ASKED))).enumerate() {
         let x = left + 150.0 * i as f64;
-        svg.line([x, base - 4.0], [x + 26.0, base - 4.0], stroke);
-        svg.text([x + 32.0, base], Anchor::Start, style::SMALL_SIZE, style::INK, label);
+        legend_entry(&mut svg, [x, base], stroke, label);
     }
 
     let squares: Vector3<f64> = semi_axes.iter().map(|axis| axis.component_mul(axis)).sum();
