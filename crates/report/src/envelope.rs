@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use crate::axis::Range;
 use crate::body_view::{self, BodyView, GAP, SIDE, VIEWS};
-use crate::heading::{heading, legend_entry, next_line};
+use crate::heading::{heading, legend_entry};
 use crate::style;
-use crate::svg::{Anchor, Stroke, Svg};
+use crate::svg::{Stroke, Svg};
 
 /// Points whose convex hulls are drawn.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +33,7 @@ pub fn envelope_svg(
     let height = top + 2.0 * row_step;
     let subtitle = "Momentum and torque envelopes of the arm and of reaction wheels, body axes";
     let mut svg = Svg::new(width, height, name, subtitle);
-    let base = next_line(heading(&mut svg, left, name, subtitle));
+    let base = heading(&mut svg, left, name, subtitle);
     for (i, (stroke, label)) in
         [(ARM, "arm, true extent"), (SAMPLED, "arm, hull of samples"), (WHEELS, "wheels")]
             .into_iter()

@@ -6,18 +6,13 @@ use crate::svg::{Anchor, Stroke, Svg};
 /// Room between a line of the heading and the next.
 const LEADING: f64 = 7.0;
 
-/// Writes name and subtitle at the top of a figure. Returns the baseline of the subtitle.
+/// Writes name and subtitle at the top of a figure. Returns the baseline of the line that follows.
 pub(crate) fn heading(svg: &mut Svg, left: f64, name: &str, subtitle: &str) -> f64 {
     let base = style::MARGIN + style::TITLE_SIZE;
     svg.text([left, base], Anchor::Start, style::TITLE_SIZE, style::INK, name);
-    let base = next_line(base);
+    let base = base + style::LABEL_SIZE + LEADING;
     svg.text([left, base], Anchor::Start, style::LABEL_SIZE, style::FAINT_INK, subtitle);
-    base
-}
-
-/// The baseline that follows.
-pub(crate) fn next_line(base: f64) -> f64 {
-    base + (style::LABEL_SIZE + LEADING)
+    base + style::LABEL_SIZE + LEADING
 }
 
 /// An entry of a legend: a piece of the line, and what it means.

@@ -32,7 +32,7 @@ pub fn slews_svg(name: &str, slews: &Slews) -> String {
     let subtitle = subtitle(slews);
     let mut svg = Svg::new(width, height, name, &subtitle);
     let left = style::MARGIN;
-    let base = heading(&mut svg, left, name, &subtitle);
+    heading(&mut svg, left, name, &subtitle);
 
     let costs = costs(slews);
     let largest = slews.points.iter().map(|slew| slew.angle_deg.abs()).fold(1e-9, f64::max);

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use crate::body_view::{self, BodyView, GAP, SIDE, VIEWS};
-use crate::heading::{heading, legend_entry, next_line};
+use crate::heading::{heading, legend_entry};
 use crate::style;
-use crate::svg::{Anchor, Stroke, Svg};
+use crate::svg::{Stroke, Svg};
 
 /// Points of an outline.
 const POINTS: usize = 180;
@@ -29,7 +29,7 @@ pub fn turn_rates_svg(
     let height = top + SIDE + style::TIME_AXIS_HEIGHT + style::ROW_GAP;
     let subtitle = "Turn rates of the base that loops of the joints keep up, body axes";
     let mut svg = Svg::new(width, height, name, subtitle);
-    let base = next_line(heading(&mut svg, left, name, subtitle));
+    let base = heading(&mut svg, left, name, subtitle);
     let legend = [("ellipsoid", OUTLINE)].into_iter();
     let legend = legend.chain([0, 1, 2].map(|k| (NAMES[k], principal(k))));
     for (i, (label, stroke)) in legend.chain(asked.map(|_| ("axis asked", ASKED))).enumerate() {
