@@ -9,6 +9,7 @@ use righting_analysis::{Abilities, Impossible};
 use righting_report::{short, turn_rates_svg};
 use righting_results::{SOLUTION_FILE, Solution};
 use righting_scenario::json::FileKind;
+use righting_scenario::scenario::DEFAULT_CLEARANCE_M;
 use righting_scenario::{
     CollisionModel, Maneuver, Scenario, Slew, SystemDescription, SystemOrScenario,
 };
@@ -23,8 +24,6 @@ use crate::output_folder::OutputFolder;
 
 const JSON_FILE: &str = "explain.json";
 const FIGURE_FILE: &str = "explain.svg";
-/// The clearance of a scenario that gives none, m.
-const CLEARANCE_M: f64 = 0.01;
 /// An arm hardly turns its base about an axis that its loops turn it this much less about.
 const HARDLY: f64 = 0.1;
 
@@ -173,7 +172,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         None => {
             let middle = system.joint_angles_at(&vec![0.5; system.joint_count()]);
-            Abilities::of(system, &middle, &CollisionModel::new(system, CLEARANCE_M))
+            Abilities::of(system, &middle, &CollisionModel::new(system, DEFAULT_CLEARANCE_M))
         }
     };
     let printed = printed(system, scenario, &abilities);

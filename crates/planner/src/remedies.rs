@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use righting_results::{Solution, Status};
-use righting_scenario::{Maneuver, Scenario};
+use righting_scenario::{Maneuver, Scenario, file};
 
 use crate::hints::{estimated_times_longer, two_digits};
 use crate::planned::Planned;
@@ -36,7 +36,7 @@ pub(crate) fn remedies(
         let mut control = scenario.weights().control;
         for _ in 0..MOST_TRIES {
             control /= LIGHTER;
-            match works(with_control(scenario, control)) {
+            match works(changed(scenario, |file| file.weights.control = Some(control))) {
                 Some(true) => {
                     notes.push(format!("weights.control {control:e} was tried and reaches it"));
                     break;
@@ -50,7 +50,7 @@ pub(crate) fn remedies(
     let mut duration_s = first_s;
     for _ in 0..MOST_TRIES {
         let rounded_s = two_digits(duration_s);
-        match works(with_duration(scenario, rounded_s)) {
+        match works(changed(scenario, |file| file.horizon.duration_s = rounded_s)) {
             Some(true) => {
                 notes.push(format!("horizon.duration_s {rounded_s} was tried and works"));
                 return notes;
@@ -81,14 +81,9 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
     }
 }
 
-fn with_duration(scenario: &Scenario, duration_s: f64) -> Option<Scenario> {
+/// A variant of the scenario, if it is one.
+fn changed(scenario: &Scenario, change: impl FnOnce(&mut file::Scenario)) -> Option<Scenario> {
     let mut file = scenario.resolved().clone();
-    file.horizon.duration_s = duration_s;
-    Scenario::from_file(file, Path::new(scenario.name())).ok()
-}
-
-fn with_control(scenario: &Scenario, control: f64) -> Option<Scenario> {
-    let mut file = scenario.resolved().clone();
-    file.weights.control = Some(control);
+    change(&mut file);
     Scenario::from_file(file, Path::new(scenario.name())).ok()
 }

@@ -24,6 +24,8 @@ use crate::system_description::{SystemDescription, read_system};
 pub const MAX_STEPS: usize = 100_000;
 /// The most iterations the optimizer may be given.
 pub const MAX_ITERATIONS: usize = 1_000_000;
+/// The clearance of a scenario that gives none, m.
+pub const DEFAULT_CLEARANCE_M: f64 = 0.01;
 /// The interval that the weight of the control is measured by, s: ∫‖q̈‖² dt over so much of it. On the
 /// paper's grid, whose intervals are of this length, that is its sum over the steps.
 pub const REFERENCE_INTERVAL_S: f64 = 0.05;
@@ -192,7 +194,7 @@ impl Scenario {
         let clearance_place = place.key("collision").key("clearance_m");
         let clearance_m = match scenario.collision.clearance_m {
             Some(clearance_m) => clearance_place.within(clearance_m, CLEARANCE_M)?,
-            None => 0.01,
+            None => DEFAULT_CLEARANCE_M,
         };
         let start = Start {
             system: &system,

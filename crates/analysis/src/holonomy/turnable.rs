@@ -45,10 +45,7 @@ impl TurnableAxes {
     /// Of a system, over the ranges of its joints; one without limits ranges over a turn.
     pub fn new(system: &SystemDescription) -> Self {
         let joints = system.joint_count();
-        let is_locked = |joint: &usize| {
-            let limits = &system.joint_limits[*joint];
-            limits.angle_min_rad >= limits.angle_max_rad
-        };
+        let is_locked = |joint: &usize| system.joint_limits[*joint].is_locked();
         let (locked_joints, moving): (Vec<usize>, Vec<usize>) = (0..joints).partition(is_locked);
         let postures: Vec<Vec<f64>> =
             Halton::new(joints).take(POSTURES).map(|unit| system.joint_angles_at(&unit)).collect();
