@@ -4,10 +4,8 @@
 //! It takes at most a few more plans, and no longer than the planner gives it; what is not finished by then is
 //! not mentioned.
 
-use std::path::Path;
-
 use righting_results::{Solution, Status};
-use righting_scenario::{Maneuver, Scenario, file};
+use righting_scenario::{Error, Maneuver, Scenario};
 
 use crate::hints::{estimated_times_longer, two_digits};
 use crate::planned::Planned;
@@ -29,14 +27,14 @@ pub(crate) fn remedies(
     if !needs_any(scenario, &planned.solution) {
         return notes;
     }
-    let mut works = |changed: Option<Scenario>| -> Option<bool> {
-        Some(plan(&changed?)?.solution.verification.passed)
+    let mut works = |changed: Result<Scenario, Error>| -> Option<bool> {
+        Some(plan(&changed.ok()?)?.solution.verification.passed)
     };
     if !scenario.is_end_hard() && scenario.weights().attitude > 0.0 {
         let mut control = scenario.weights().control;
         for _ in 0..MOST_TRIES {
             control /= LIGHTER;
-            match works(changed(scenario, |file| file.weights.control = Some(control))) {
+            match works(scenario.varied(|file| file.weights.control = Some(control))) {
                 Some(true) => {
                     notes.push(format!("weights.control {control:e} was tried and reaches it"));
                     break;
@@ -50,7 +48,7 @@ pub(crate) fn remedies(
     let mut duration_s = first_s;
     for _ in 0..MOST_TRIES {
         let rounded_s = two_digits(duration_s);
-        match works(changed(scenario, |file| file.horizon.duration_s = rounded_s)) {
+        match works(scenario.varied(|file| file.horizon.duration_s = rounded_s)) {
             Some(true) => {
                 notes.push(format!("horizon.duration_s {rounded_s} was tried and works"));
                 return notes;
@@ -79,11 +77,4 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
         (status, Maneuver::Slew(_)) => !status.is_acceptable(),
         (_, Maneuver::Detumble) => false,
     }
-}
-
-/// A variant of the scenario, if it is one.
-fn changed(scenario: &Scenario, change: impl FnOnce(&mut file::Scenario)) -> Option<Scenario> {
-    let mut file = scenario.resolved().clone();
-    change(&mut file);
-    Scenario::from_file(file, Path::new(scenario.name())).ok()
 }

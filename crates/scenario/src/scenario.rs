@@ -150,8 +150,7 @@ impl Scenario {
     }
 
     /// Checks a scenario; `file` names it in errors, and a relative system path starts from its
-    /// folder. To vary a checked scenario, change a copy of its [`resolved`](Self::resolved) form
-    /// and check that.
+    /// folder. [`varied`](Self::varied) is for variants of a checked scenario.
     ///
     /// # Errors
     /// [`Error::Field`] for a field that is wrong; those of reading the system.
@@ -265,6 +264,16 @@ impl Scenario {
     /// Weights of the objective.
     pub fn weights(&self) -> Weights {
         self.weights
+    }
+
+    /// A checked variant: this scenario as its [`resolved`](Self::resolved) file says it, with a change.
+    ///
+    /// # Errors
+    /// [`Error::Field`] for a field that is wrong then, in a file named as the scenario.
+    pub fn varied(&self, change: impl FnOnce(&mut file::Scenario)) -> Result<Self, Error> {
+        let mut file = self.resolved.clone();
+        change(&mut file);
+        Self::from_file(file, Path::new(self.name()))
     }
 
     /// The same scenario with another duration and grid; [`resolved`](Self::resolved) stays as it was.

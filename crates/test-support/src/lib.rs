@@ -31,9 +31,7 @@ pub fn shipped(name: &str) -> Scenario {
 
 /// A checked variant of a scenario.
 pub fn varied(scenario: &Scenario, change: impl FnOnce(&mut file::Scenario)) -> Scenario {
-    let mut file = scenario.resolved().clone();
-    change(&mut file);
-    Scenario::from_file(file, Path::new("varied.json")).unwrap()
+    scenario.varied(change).unwrap()
 }
 
 /// Grid, outcome and iterations of every attempt, in order.

@@ -1,7 +1,5 @@
 //! Solving one variant of a scenario until it succeeds or has had every chance.
 
-use std::path::Path;
-
 use righting_analysis::Impossible;
 use righting_ocp::Control;
 use righting_results::solution::{IterationRecord, Status, Terminal};
@@ -113,9 +111,7 @@ impl<'a> Trials<'a> {
         if !failed.planned.solution.status.is_acceptable() || weight == 0.0 {
             return Ok(None);
         }
-        let mut file = failed.scenario.resolved().clone();
-        file.weights.control = Some(weight);
-        let cheap = Scenario::from_file(file, Path::new(self.scenario.name()))?;
+        let cheap = failed.scenario.varied(|file| file.weights.control = Some(weight))?;
         let watch = &mut *self.watch;
         let mut planner = Planner::new().without_remedies().warm_start(&failed.planned.trajectory);
         let planned = planner.plan(&cheap, &mut |record| watch(Progress::Iteration(record)))?;
@@ -136,15 +132,13 @@ impl<'a> Trials<'a> {
     }
 
     fn variant(&self, value: f64) -> Result<Scenario, ReachError> {
-        let mut file = self.scenario.resolved().clone();
-        match self.settings.quantity {
+        Ok(self.scenario.varied(|file| match self.settings.quantity {
             Quantity::Duration => file.horizon.duration_s = value,
             Quantity::Angle => {
                 let asked = file.maneuver.angle_deg.unwrap_or(1.0);
                 file.maneuver.angle_deg = Some(value.copysign(asked));
             }
-        }
-        Ok(Scenario::from_file(file, Path::new(self.scenario.name()))?)
+        })?)
     }
 
     fn solve(
@@ -166,10 +160,9 @@ impl<'a> Trials<'a> {
                 planner.plan(scenario, &mut on_iteration)?
             }
             (StartedFrom::LowDiscrepancy, _) => {
-                let mut file = scenario.resolved().clone();
                 let starts = self.settings.starts;
-                file.solver.guess = Some(Guess::Starts(LowDiscrepancyStarts { starts, seed: 0 }));
-                let many = Scenario::from_file(file, Path::new(self.scenario.name()))?;
+                let guess = Guess::Starts(LowDiscrepancyStarts { starts, seed: 0 });
+                let many = scenario.varied(|file| file.solver.guess = Some(guess))?;
                 Planner::new().without_remedies().plan(&many, &mut on_iteration)?
             }
             _ => Planner::new().without_remedies().plan(scenario, &mut on_iteration)?,
