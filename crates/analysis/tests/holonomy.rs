@@ -4,38 +4,12 @@ use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use righting_analysis::holonomy::{Curvature, SingleJoint, TurnRates, TurnableAxes, connection};
 use righting_multibody::Quaternion;
 use righting_scenario::{JointLimits, Maneuver, Scenario, SystemDescription};
+use righting_test_support::by_hand::{link, on_a_cube};
 use righting_test_support::{shipped, varied};
-use serde_json::{Value, json};
-
-/// A link that turns within ± `range_deg`, or freely.
-fn link(mass_kg: f64, a_m: f64, alpha_deg: f64, range_deg: Option<f64>) -> Value {
-    json!({
-        "mass_kg": mass_kg, "a_m": a_m, "alpha_deg": alpha_deg, "d_m": 0.0, "theta_deg": 0.0,
-        "angle_min_deg": range_deg.map(|range| -range), "angle_max_deg": range_deg,
-        "rate_max_deg_s": 20.0, "acceleration_max_deg_s2": 10.0, "body_exempt": false
-    })
-}
-
-/// A cube of 100 kg and 1 m with an arm whose first joint turns about z through `mount_m`.
-fn scenario(mount_m: [f64; 3], links: &[Value]) -> Scenario {
-    let scenario = json!({
-        "name": "by_hand",
-        "system": {
-            "name": "by_hand",
-            "base": { "mass_kg": 100.0, "cube_side_m": 1.0, "keep_out_radius_m": 0.0 },
-            "mount": { "position_m": mount_m },
-            "links": links
-        },
-        "initial": { "joint_angles_deg": vec![0.0; links.len()] },
-        "maneuver": { "type": "slew", "axis": [0, 0, 1], "angle_deg": 10.0 },
-        "horizon": { "duration_s": 30.0, "steps": 60 },
-        "collision": { "clearance_m": 0.0 }
-    });
-    Scenario::parse(&scenario.to_string(), std::path::Path::new("by_hand.json")).unwrap()
-}
+use serde_json::Value;
 
 fn system(mount_m: [f64; 3], links: &[Value]) -> SystemDescription {
-    scenario(mount_m, links).system().clone()
+    on_a_cube(mount_m, links).system().clone()
 }
 
 fn assert_close(found: f64, expected: f64, tolerance: f64) {

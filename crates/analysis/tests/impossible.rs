@@ -1,7 +1,5 @@
 //! Maneuvers that no motion makes are known, and none that some motion makes is among them.
 
-use std::path::Path;
-
 use nalgebra::{UnitQuaternion, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -9,32 +7,19 @@ use righting_analysis::Impossible;
 use righting_analysis::detumble::{inertia_range_kg_m2, rate_bound_rad_s};
 use righting_scenario::Scenario;
 use righting_test_support::arms::arm;
-use righting_test_support::{shipped, varied};
+use righting_test_support::{by_hand, shipped, varied};
 use serde_json::{Value, json};
 
 fn link(mass_kg: f64, a_m: f64, alpha_deg: f64) -> Value {
-    json!({
-        "mass_kg": mass_kg, "a_m": a_m, "alpha_deg": alpha_deg, "d_m": 0.0, "theta_deg": 0.0,
-        "angle_min_deg": null, "angle_max_deg": null,
-        "rate_max_deg_s": 20.0, "acceleration_max_deg_s2": 10.0, "body_exempt": false
-    })
+    by_hand::link(mass_kg, a_m, alpha_deg, None)
 }
 
 fn slew(mount_m: [f64; 3], links: &[Value], axis: [f64; 3], angle_deg: f64) -> Scenario {
-    let scenario = json!({
-        "name": "by_hand",
-        "system": {
-            "name": "by_hand",
-            "base": { "mass_kg": 100.0, "cube_side_m": 1.0, "keep_out_radius_m": 0.0 },
-            "mount": { "position_m": mount_m },
-            "links": links
-        },
-        "initial": { "joint_angles_deg": vec![0.0; links.len()] },
-        "maneuver": { "type": "slew", "axis": axis, "angle_deg": angle_deg },
-        "horizon": { "duration_s": 60.0, "steps": 60 },
-        "collision": { "clearance_m": 0.0 }
-    });
-    Scenario::parse(&scenario.to_string(), Path::new("by_hand.json")).unwrap()
+    varied(&by_hand::on_a_cube(mount_m, links), |file| {
+        file.maneuver.axis = Some(axis);
+        file.maneuver.angle_deg = Some(angle_deg);
+        file.horizon.duration_s = 60.0;
+    })
 }
 
 fn planar(axis: [f64; 3], angle_deg: f64) -> Option<Impossible> {

@@ -3,7 +3,8 @@
 use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
-use righting_scenario::file::{self, Horizon, Link, SystemReference};
+use righting_scenario::file::{self, Horizon, SystemReference};
+use righting_test_support::thin_links::thin_link;
 use righting_test_support::{shipped, varied};
 
 fn plan(scenario: &Scenario) -> Planned {
@@ -75,21 +76,7 @@ impl ThinLinks {
             let SystemReference::Inline(system) = &mut file.system else { unreachable!() };
             let links = self.lengths_m.iter().zip(&self.twists_deg);
             system.links = links
-                .map(|(&a_m, &alpha_deg)| Link {
-                    mass_kg: 4.0 * a_m,
-                    a_m,
-                    alpha_deg,
-                    d_m: 0.0,
-                    theta_deg: 0.0,
-                    angle_min_deg: None,
-                    angle_max_deg: None,
-                    rate_max_deg_s: 60.0,
-                    acceleration_max_deg_s2: 40.0,
-                    body_exempt: false,
-                    center_of_mass_m: None,
-                    inertia_kg_m2: None,
-                    inertial_frame: None,
-                })
+                .map(|(&a_m, &alpha_deg)| thin_link(4.0 * a_m, a_m, alpha_deg, [60.0, 40.0]))
                 .collect();
             system.base = file::Base {
                 mass_kg: 60.0,

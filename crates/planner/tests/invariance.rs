@@ -6,6 +6,7 @@ use righting_planner::Planner;
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
 use righting_scenario::file::{self, SystemReference};
+use righting_test_support::units::Units;
 use righting_test_support::{shipped, varied};
 
 /// How far joint angles may differ, rad, and rates and accelerations in units of the maneuver's own time.
@@ -59,25 +60,7 @@ fn masses_lengths_and_times_in_any_unit_give_the_same_plan() {
         for (mass, length, time) in
             [(1e6, 1.0, 1.0), (1e-6, 1e3, 1.0), (1.0, 1e-3, 1e2), (1.0, 1.0, 1e-2)]
         {
-            let scaled = varied(&scenario, |file| {
-                let clearance_m = file.collision.clearance_m.map(|clearance| clearance * length);
-                file.collision.clearance_m = clearance_m;
-                file.horizon.duration_s *= time;
-                if let Some(rate) = &mut file.initial.angular_rate_deg_s {
-                    rate.iter_mut().for_each(|rate| *rate /= time);
-                }
-                let system = system(file);
-                system.base.mass_kg *= mass;
-                system.base.cube_side_m = system.base.cube_side_m.map(|side| side * length);
-                system.mount.position_m.iter_mut().for_each(|x| *x *= length);
-                for link in &mut system.links {
-                    link.mass_kg *= mass;
-                    link.a_m *= length;
-                    link.d_m *= length;
-                    link.rate_max_deg_s /= time;
-                    link.acceleration_max_deg_s2 /= time * time;
-                }
-            });
+            let scaled = varied(&scenario, |file| *file = Units { length, mass, time }.of(file));
             assert_same_joint_motion(&plan, &planned(&scaled), SAME);
         }
     }

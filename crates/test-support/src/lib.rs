@@ -4,7 +4,10 @@
 #![forbid(unsafe_code)]
 
 pub mod arms;
+pub mod by_hand;
 pub mod json_schema;
+pub mod thin_links;
+pub mod units;
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};

@@ -5,10 +5,10 @@ use std::path::Path;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use righting_results::{Check, Trajectory, Verification};
-use righting_scenario::file::{Link, SystemReference};
 use righting_scenario::{Scenario, file};
 use righting_test_support::arms::arm;
-use righting_test_support::{motion, shipped, varied};
+use righting_test_support::motion;
+use righting_test_support::thin_links::pendulum;
 use righting_verifier::model::{Model, Segment};
 use righting_verifier::verify;
 
@@ -16,40 +16,6 @@ const LINKS: &str = "clearance between links between nodes";
 const BODY: &str = "clearance from body between nodes";
 /// What a clearance may be missed by between nodes, m.
 const TOLERANCE_M: f64 = 1e-3;
-
-fn link(a_m: f64, alpha_deg: f64) -> Link {
-    Link {
-        mass_kg: if a_m > 0.0 { 3.0 } else { 0.0 },
-        a_m,
-        alpha_deg,
-        d_m: 0.0,
-        theta_deg: 0.0,
-        angle_min_deg: None,
-        angle_max_deg: None,
-        rate_max_deg_s: 100.0,
-        acceleration_max_deg_s2: 100.0,
-        body_exempt: false,
-        center_of_mass_m: None,
-        inertia_kg_m2: None,
-        inertial_frame: None,
-    }
-}
-
-/// Two links of 2 m that lie in the plane of the mount, the second turned back by 120°, and a last one
-/// hanging from the end of the second. It swings about the direction of the first, whose middle it
-/// reaches if it is 1.732 m long: a pendulum through a rod.
-fn pendulum(length_m: f64) -> Scenario {
-    varied(&shipped("slew_4dof"), |file| {
-        let SystemReference::Inline(system) = &mut file.system else { unreachable!() };
-        system.links = vec![link(2.0, 0.0), link(2.0, 0.0), link(0.0, 90.0), link(length_m, 0.0)];
-        system.base.keep_out_radius_m = Some(0.05);
-        system.base.inertia_kg_m2 = Some([[50.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, 50.0]]);
-        system.base.cube_side_m = None;
-        file.initial.joint_angles_deg = vec![0.0, 120.0, 150.0, -60.0];
-        file.horizon = file::Horizon { duration_s: 3.0, steps: 3.0 };
-        file.collision.clearance_m = Some(0.01);
-    })
-}
 
 /// The pendulum's swing from 60° on the one side to 60° on the other, at constant rate in the middle of
 /// three steps.

@@ -1,0 +1,57 @@
+//! A scenario in other units.
+
+use righting_scenario::file;
+
+/// How many new units an old one is.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// For a meter.
+    pub length: f64,
+    /// For a kilogram.
+    pub mass: f64,
+    /// For a second.
+    pub time: f64,
+}
+
+impl Units {
+    fn system(self, system: &mut file::System) {
+        let Self { length, mass, time } = self;
+        let inertia = mass * length * length;
+        let scale_inertia = |rows: &mut Option<[[f64; 3]; 3]>| {
+            rows.iter_mut().flatten().flatten().for_each(|entry| *entry *= inertia);
+        };
+        let base = &mut system.base;
+        base.mass_kg *= mass;
+        base.cube_side_m = base.cube_side_m.map(|side_m| side_m * length);
+        base.keep_out_radius_m = base.keep_out_radius_m.map(|radius_m| radius_m * length);
+        scale_inertia(&mut base.inertia_kg_m2);
+        system.mount.position_m = system.mount.position_m.map(|entry| entry * length);
+        for link in &mut system.links {
+            link.mass_kg *= mass;
+            link.a_m *= length;
+            link.d_m *= length;
+            link.rate_max_deg_s /= time;
+            link.acceleration_max_deg_s2 /= time * time;
+            link.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
+            scale_inertia(&mut link.inertia_kg_m2);
+        }
+    }
+
+    /// The same scenario in these units, its system inline.
+    pub fn of(self, file: &file::Scenario) -> file::Scenario {
+        let mut file = file.clone();
+        let file::SystemReference::Inline(system) = &mut file.system else { panic!("inline") };
+        self.system(system);
+        let initial = &mut file.initial;
+        initial.angular_rate_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
+        initial.joint_rates_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
+        file.horizon.duration_s *= self.time;
+        file.weights.control = file.weights.control.map(|weight| weight * self.time.powi(3));
+        file.weights.angular_rate =
+            file.weights.angular_rate.map(|weight| weight * self.time.powi(2));
+        file.weights.joint_rate = file.weights.joint_rate.map(|weight| weight * self.time.powi(2));
+        let clearance_m = &mut file.collision.clearance_m;
+        *clearance_m = clearance_m.map(|clearance_m| clearance_m * self.length);
+        file
+    }
+}
