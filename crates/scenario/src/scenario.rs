@@ -1,17 +1,12 @@
 //! A maneuver to plan, checked: what a scenario file means.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-use nalgebra::Vector3;
-use righting_multibody::Quaternion;
 use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
 use crate::error::Error;
-use crate::file::{
-    self, Formulation, Guess, LinearSolverChoice, NamedGuess, Optimizer, SystemReference,
-};
+use crate::file::{self, SystemReference};
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
@@ -20,31 +15,15 @@ use crate::start_clearance::Start;
 use crate::start_limits::widen_to_start;
 use crate::system_description::{SystemDescription, read_system};
 
-/// The most intervals a horizon may have.
-pub const MAX_STEPS: usize = 100_000;
-/// The most iterations the optimizer may be given.
-pub const MAX_ITERATIONS: usize = 1_000_000;
+pub use crate::horizon::{Horizon, LONGEST_S, MAX_STEPS};
+pub use crate::maneuver::{Maneuver, Slew};
+pub use crate::solver_settings::{MAX_ITERATIONS, MAX_STARTS, SolverSettings};
+pub use crate::weights::{REFERENCE_INTERVAL_S, Weights};
+
 /// The clearance of a scenario that gives none, m.
 pub const DEFAULT_CLEARANCE_M: f64 = 0.01;
-/// The interval that the weight of the control is measured by, s: ∫‖q̈‖² dt over so much of it. On the
-/// paper's grid, whose intervals are of this length, that is its sum over the steps.
-pub const REFERENCE_INTERVAL_S: f64 = 0.05;
-/// The most low-discrepancy starts.
-pub const MAX_STARTS: u64 = 1000;
-/// The longest duration, s.
-pub const LONGEST_S: f64 = 1e8;
 
-const DURATION_S: Bounds = Bounds::Above(0.0, LONGEST_S);
-const STEPS: Bounds = Bounds::Whole(1.0, MAX_STEPS as f64);
-const WEIGHT: Bounds = Bounds::Between(0.0, 1e20);
 const CLEARANCE_M: Bounds = Bounds::Between(0.0, 1e8);
-const SLEW_ANGLE_DEG: Bounds = Bounds::Between(-180.0, 180.0);
-const AXIS: Bounds = Bounds::Between(-1e6, 1e6);
-/// Shorter than this, the square of an axis is lost.
-const SHORTEST_AXIS: f64 = 1e-150;
-const ITERATIONS: Bounds = Bounds::Whole(1.0, MAX_ITERATIONS as f64);
-const TIME_LIMIT_S: Bounds = Bounds::Above(0.0, 1e6);
-const TOLERANCE: Bounds = Bounds::Between(1e-14, 1e-2);
 
 /// A checked scenario. SI units and radians; nothing in it can be wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,75 +38,6 @@ pub struct Scenario {
     pub(crate) solver: SolverSettings,
     pub(crate) resolved: file::Scenario,
     pub(crate) notes: Vec<String>,
-}
-
-/// What to do.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Maneuver {
-    /// Turn the base, rest to rest.
-    Slew(Slew),
-    /// Reduce the base's angular rate and stop the arm.
-    Detumble,
-}
-
-/// A turn of the base, rest to rest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Slew {
-    /// Unit axis in body axes at the start.
-    pub axis: Vector3<f64>,
-    /// Angle about the axis, rad.
-    pub angle_rad: f64,
-    /// Attitude to reach, body → inertial: the initial attitude turned about `axis` by `angle_rad`.
-    pub target: Quaternion<f64>,
-}
-
-/// Duration and grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Horizon {
-    /// Duration, s.
-    pub duration_s: f64,
-    /// Number of equal intervals N.
-    pub steps: usize,
-}
-
-/// Weights of the objective: `control` multiplies the integral over time of the squared joint
-/// accelerations, divided by [`REFERENCE_INTERVAL_S`], each other one the squared norm of its error at the
-/// last node. SI and radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weights {
-    /// Joint accelerations.
-    pub control: f64,
-    /// Position of the base.
-    pub position: f64,
-    /// Vector part of the attitude error quaternion.
-    pub attitude: f64,
-    /// Velocity of the base.
-    pub velocity: f64,
-    /// Angular rate of the base.
-    pub angular_rate: f64,
-    /// Departure of the joint angles from their start.
-    pub joint_angle: f64,
-    /// Joint rates.
-    pub joint_rate: f64,
-}
-
-/// How to solve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolverSettings {
-    /// States of the optimal control problem.
-    pub formulation: Formulation,
-    /// Initial guess.
-    pub guess: Guess,
-    /// Who makes the iterations.
-    pub optimizer: Optimizer,
-    /// Linear solver inside the optimizer.
-    pub linear_solver: LinearSolverChoice,
-    /// Largest number of iterations.
-    pub max_iterations: usize,
-    /// Convergence tolerance.
-    pub tolerance: f64,
-    /// Wall time after which a plan is stopped.
-    pub time_limit: Option<Duration>,
 }
 
 impl Scenario {
@@ -179,13 +89,13 @@ impl Scenario {
             system.joint_limits = file.links.iter().map(JointLimits::of).collect();
         }
         let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
-        let maneuver = maneuver(&scenario.maneuver, &initial, &place.key("maneuver"))?;
+        let maneuver = Maneuver::from_file(&scenario.maneuver, &initial, &place.key("maneuver"))?;
         let momentum_note =
             check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
         notes.extend(momentum_note);
-        let horizon = horizon(&scenario.horizon, &place.key("horizon"))?;
-        let weights = weights(&scenario.weights, &maneuver, &place.key("weights"))?;
-        let solver = solver(&scenario.solver, &place.key("solver"))?;
+        let horizon = Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
+        let weights = Weights::from_file(&scenario.weights, &maneuver, &place.key("weights"))?;
+        let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
             Some(hard) => hard,
             None => !solver.is_paper() && !scenario.weights.has_end(),
@@ -328,18 +238,6 @@ impl Scenario {
     }
 }
 
-impl Horizon {
-    /// Length of an interval Δt, s.
-    pub fn step_s(self) -> f64 {
-        self.duration_s / self.steps as f64
-    }
-
-    /// Time of node `k`, s.
-    pub fn time_s(self, k: usize) -> f64 {
-        self.duration_s * k as f64 / self.steps as f64
-    }
-}
-
 impl file::Scenario {
     /// SHA-256 of the compact JSON of this scenario, hexadecimal. For a resolved scenario it
     /// identifies the problem, the system included.
@@ -377,38 +275,6 @@ fn resolve_system(
             let description = SystemDescription::from_file(&mut system, &place, notes)?;
             *reference = SystemReference::Inline(Box::new(system));
             Ok((description, place.key("links")))
-        }
-    }
-}
-
-fn maneuver(
-    maneuver: &file::Maneuver,
-    initial: &Initial,
-    place: &Location,
-) -> Result<Maneuver, Error> {
-    let (axis_place, angle_place) = (place.key("axis"), place.key("angle_deg"));
-    match maneuver.kind {
-        file::ManeuverType::Slew => {
-            let axis = maneuver.axis.ok_or_else(|| axis_place.missing("the axis of the slew"))?;
-            let angle_deg =
-                maneuver.angle_deg.ok_or_else(|| angle_place.missing("the angle of the slew"))?;
-            axis_place.all_within(axis, AXIS)?;
-            let axis = Vector3::from(axis).try_normalize(SHORTEST_AXIS).ok_or_else(|| {
-                let [x, y, z] = axis.map(Number);
-                axis_place.refuse(format!("[{x}, {y}, {z}]"), "a vector that is not zero")
-            })?;
-            let angle_rad = angle_place.within(angle_deg, SLEW_ANGLE_DEG)?.to_radians();
-            let turn = Quaternion::from_axis_angle(&axis, angle_rad);
-            Ok(Maneuver::Slew(Slew { axis, angle_rad, target: initial.attitude.product(&turn) }))
-        }
-        file::ManeuverType::Detumble => {
-            if maneuver.axis.is_some() {
-                return Err(axis_place.refuse("an axis", "none for a detumble"));
-            }
-            if maneuver.angle_deg.is_some() {
-                return Err(angle_place.refuse("an angle", "none for a detumble"));
-            }
-            Ok(Maneuver::Detumble)
         }
     }
 }
@@ -462,136 +328,4 @@ fn stopped_rate_rad_s(initial: &Initial, system: &SystemDescription) -> f64 {
     let arm_at_rest = vec![0.0; system.joint_count()];
     let model = &system.model;
     model.reduced_angular_rate(&initial.joint_angles_rad, &arm_at_rest, &momentum).norm()
-}
-
-fn horizon(horizon: &file::Horizon, place: &Location) -> Result<Horizon, Error> {
-    Ok(Horizon {
-        duration_s: place.key("duration_s").within(horizon.duration_s, DURATION_S)?,
-        steps: place.key("steps").within(horizon.steps, STEPS)? as usize,
-    })
-}
-
-fn weights(
-    weights: &file::Weights,
-    maneuver: &Maneuver,
-    place: &Location,
-) -> Result<Weights, Error> {
-    let defaults = Weights::defaults(maneuver);
-    let weight = |name: &str, given: Option<f64>, default: f64| match given {
-        Some(value) => place.key(name).within(value, WEIGHT),
-        None => Ok(default),
-    };
-    Ok(Weights {
-        control: weight("control", weights.control, defaults.control)?,
-        position: weight("position", weights.position, defaults.position)?,
-        attitude: weight("attitude", weights.attitude, defaults.attitude)?,
-        velocity: weight("velocity", weights.velocity, defaults.velocity)?,
-        angular_rate: weight("angular_rate", weights.angular_rate, defaults.angular_rate)?,
-        joint_angle: weight("joint_angle", weights.joint_angle, defaults.joint_angle)?,
-        joint_rate: weight("joint_rate", weights.joint_rate, defaults.joint_rate)?,
-    })
-}
-
-impl file::Weights {
-    /// Whether any weight of the end is given.
-    fn has_end(&self) -> bool {
-        let Self {
-            control: _,
-            position,
-            attitude,
-            velocity,
-            angular_rate,
-            joint_angle,
-            joint_rate,
-        } = self;
-        [position, attitude, velocity, angular_rate, joint_angle, joint_rate]
-            .iter()
-            .any(|weight| weight.is_some())
-    }
-}
-
-impl Weights {
-    /// What the control's weight multiplies the sum over a horizon's steps of the squared joint
-    /// accelerations by.
-    pub fn control_per_step(&self, horizon: Horizon) -> f64 {
-        self.control * (horizon.step_s() / REFERENCE_INTERVAL_S)
-    }
-
-    /// The weights of a scenario that gives none.
-    pub fn defaults(maneuver: &Maneuver) -> Self {
-        let none = Self {
-            control: 0.01,
-            position: 0.0,
-            attitude: 0.0,
-            velocity: 0.0,
-            angular_rate: 100.0,
-            joint_angle: 0.0,
-            joint_rate: 0.0,
-        };
-        match maneuver {
-            Maneuver::Slew(_) => Self { attitude: 1000.0, joint_rate: 100.0, ..none },
-            Maneuver::Detumble => Self { joint_rate: 1000.0, ..none },
-        }
-    }
-
-    fn to_file(self) -> file::Weights {
-        file::Weights {
-            control: Some(self.control),
-            position: Some(self.position),
-            attitude: Some(self.attitude),
-            velocity: Some(self.velocity),
-            angular_rate: Some(self.angular_rate),
-            joint_angle: Some(self.joint_angle),
-            joint_rate: Some(self.joint_rate),
-        }
-    }
-}
-
-fn solver(solver: &file::Solver, place: &Location) -> Result<SolverSettings, Error> {
-    let max_iterations = solver.max_iterations.unwrap_or(3000.0);
-    let tolerance = solver.tolerance.unwrap_or(1e-8);
-    if let Some(Guess::Starts(random)) = solver.guess
-        && !(1..=MAX_STARTS).contains(&random.starts)
-    {
-        let allowed = format!("a whole number from 1 to {MAX_STARTS}");
-        return Err(place.key("guess").key("starts").refuse(random.starts, allowed));
-    }
-    Ok(SolverSettings {
-        formulation: solver.formulation.unwrap_or_default(),
-        guess: solver.guess.unwrap_or(Guess::Named(NamedGuess::Auto)),
-        optimizer: match solver.optimizer.unwrap_or_default() {
-            Optimizer::Auto => Optimizer::Ipopt,
-            named => named,
-        },
-        linear_solver: solver.linear_solver.unwrap_or_default(),
-        max_iterations: place.key("max_iterations").within(max_iterations, ITERATIONS)? as usize,
-        tolerance: place.key("tolerance").within(tolerance, TOLERANCE)?,
-        time_limit: match solver.time_limit_s {
-            Some(limit_s) => {
-                let limit_s = place.key("time_limit_s").within(limit_s, TIME_LIMIT_S)?;
-                Some(Duration::from_secs_f64(limit_s))
-            }
-            None => None,
-        },
-    })
-}
-
-impl SolverSettings {
-    /// Whether they ask for the paper's solve, which is made as it is: from its constant guess, in the units of
-    /// the file, with limits at the nodes alone.
-    pub fn is_paper(&self) -> bool {
-        self.guess == Guess::Named(NamedGuess::Constant)
-    }
-
-    fn to_file(self) -> file::Solver {
-        file::Solver {
-            formulation: Some(self.formulation),
-            guess: Some(self.guess),
-            optimizer: Some(self.optimizer),
-            linear_solver: Some(self.linear_solver),
-            max_iterations: Some(self.max_iterations as f64),
-            tolerance: Some(self.tolerance),
-            time_limit_s: self.time_limit.map(|limit| limit.as_secs_f64()),
-        }
-    }
 }

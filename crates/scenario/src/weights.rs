@@ -1,0 +1,111 @@
+//! Weights of a scenario's objective.
+
+use crate::error::Error;
+use crate::file;
+use crate::horizon::Horizon;
+use crate::json::{Bounds, Location};
+use crate::maneuver::Maneuver;
+
+/// The interval that the weight of the control is measured by, s: ∫‖q̈‖² dt over so much of it. On the
+/// paper's grid, whose intervals are of this length, that is its sum over the steps.
+pub const REFERENCE_INTERVAL_S: f64 = 0.05;
+
+const WEIGHT: Bounds = Bounds::Between(0.0, 1e20);
+
+/// Weights of the objective: `control` multiplies the integral over time of the squared joint
+/// accelerations, divided by [`REFERENCE_INTERVAL_S`], each other one the squared norm of its error at the
+/// last node. SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights {
+    /// Joint accelerations.
+    pub control: f64,
+    /// Position of the base.
+    pub position: f64,
+    /// Vector part of the attitude error quaternion.
+    pub attitude: f64,
+    /// Velocity of the base.
+    pub velocity: f64,
+    /// Angular rate of the base.
+    pub angular_rate: f64,
+    /// Departure of the joint angles from their start.
+    pub joint_angle: f64,
+    /// Joint rates.
+    pub joint_rate: f64,
+}
+
+impl file::Weights {
+    /// Whether any weight of the end is given.
+    pub(crate) fn has_end(&self) -> bool {
+        let Self {
+            control: _,
+            position,
+            attitude,
+            velocity,
+            angular_rate,
+            joint_angle,
+            joint_rate,
+        } = self;
+        [position, attitude, velocity, angular_rate, joint_angle, joint_rate]
+            .iter()
+            .any(|weight| weight.is_some())
+    }
+}
+
+impl Weights {
+    /// Checks weights that were read from `place`; those not given are the maneuver's defaults.
+    pub(crate) fn from_file(
+        weights: &file::Weights,
+        maneuver: &Maneuver,
+        place: &Location,
+    ) -> Result<Weights, Error> {
+        let defaults = Weights::defaults(maneuver);
+        let weight = |name: &str, given: Option<f64>, default: f64| match given {
+            Some(value) => place.key(name).within(value, WEIGHT),
+            None => Ok(default),
+        };
+        Ok(Weights {
+            control: weight("control", weights.control, defaults.control)?,
+            position: weight("position", weights.position, defaults.position)?,
+            attitude: weight("attitude", weights.attitude, defaults.attitude)?,
+            velocity: weight("velocity", weights.velocity, defaults.velocity)?,
+            angular_rate: weight("angular_rate", weights.angular_rate, defaults.angular_rate)?,
+            joint_angle: weight("joint_angle", weights.joint_angle, defaults.joint_angle)?,
+            joint_rate: weight("joint_rate", weights.joint_rate, defaults.joint_rate)?,
+        })
+    }
+
+    /// What the control's weight multiplies the sum over a horizon's steps of the squared joint
+    /// accelerations by.
+    pub fn control_per_step(&self, horizon: Horizon) -> f64 {
+        self.control * (horizon.step_s() / REFERENCE_INTERVAL_S)
+    }
+
+    /// The weights of a scenario that gives none.
+    pub fn defaults(maneuver: &Maneuver) -> Self {
+        let none = Self {
+            control: 0.01,
+            position: 0.0,
+            attitude: 0.0,
+            velocity: 0.0,
+            angular_rate: 100.0,
+            joint_angle: 0.0,
+            joint_rate: 0.0,
+        };
+        match maneuver {
+            Maneuver::Slew(_) => Self { attitude: 1000.0, joint_rate: 100.0, ..none },
+            Maneuver::Detumble => Self { joint_rate: 1000.0, ..none },
+        }
+    }
+
+    pub(crate) fn to_file(self) -> file::Weights {
+        file::Weights {
+            control: Some(self.control),
+            position: Some(self.position),
+            attitude: Some(self.attitude),
+            velocity: Some(self.velocity),
+            angular_rate: Some(self.angular_rate),
+            joint_angle: Some(self.joint_angle),
+            joint_rate: Some(self.joint_rate),
+        }
+    }
+}
