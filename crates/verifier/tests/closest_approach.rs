@@ -14,8 +14,9 @@ use righting_verifier::verify;
 
 const LINKS: &str = "clearance between links between nodes";
 const BODY: &str = "clearance from body between nodes";
-/// What a clearance may be missed by between nodes, m.
-const TOLERANCE_M: f64 = 1e-3;
+/// What the arms that move keep, m. They may miss a tenth of it between nodes, and a thousandth of their
+/// size at the most.
+const CLEARANCE_M: f64 = 0.02;
 
 /// The pendulum's swing from 60° on the one side to 60° on the other, at constant rate in the middle of
 /// three steps.
@@ -72,7 +73,7 @@ fn links_that_pass_through_each_other_between_two_samples_are_caught() {
     assert!(!caught.passed, "{caught}");
     assert_eq!(caught.subject.as_deref(), Some("links 1 and 4"));
     assert!((caught.time_s.unwrap() - 1.5).abs() < 1e-3, "{caught}");
-    assert!(caught.value < TOLERANCE_M / 10.0, "{caught}");
+    assert!(caught.value < 1e-4, "{caught}");
     assert!(check(&verification, "clearance between links at nodes").passed);
 }
 
@@ -102,7 +103,7 @@ fn moving_arm() -> impl Strategy<Value = (Scenario, Trajectory)> {
         |(scenario, pushes)| {
             let mut file = scenario.resolved().clone();
             file.horizon = file::Horizon { duration_s: 6.0, steps: 6.0 };
-            file.collision.clearance_m = Some(0.02);
+            file.collision.clearance_m = Some(CLEARANCE_M);
             file.initial.joint_angles_deg.iter_mut().zip(0..).for_each(|(angle, joint)| {
                 *angle = 50.0 * f64::from(joint % 3) - 40.0;
             });
@@ -125,13 +126,14 @@ proptest! {
     #[test]
     fn nothing_is_missed_and_nothing_is_made_up((scenario, plan) in moving_arm()) {
         let verification = verify(&scenario, &plan);
+        let tolerance_m = (0.1 * CLEARANCE_M).min(1e-3 * scenario.system().model.size_m());
         let dense = sampled_excess(&scenario, &plan, 1000);
         for (name, dense) in [(LINKS, dense[0]), (BODY, dense[1])] {
             let Some(found) = verification.check(name) else { continue };
             let excess = found.limit - found.value;
-            prop_assert_eq!(found.passed, excess <= TOLERANCE_M);
+            prop_assert_eq!(found.passed, excess <= tolerance_m);
             if found.passed {
-                prop_assert!(dense <= TOLERANCE_M + 1e-9, "{}: {} where {} is", name, excess, dense);
+                prop_assert!(dense <= tolerance_m + 1e-9, "{}: {} where {} is", name, excess, dense);
             } else {
                 prop_assert!(dense >= excess - 3e-3, "{}: {} where {} is", name, excess, dense);
                 prop_assert!(dense <= excess + 2e-4, "{}: {} where {} is", name, excess, dense);
