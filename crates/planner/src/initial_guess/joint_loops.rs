@@ -9,8 +9,6 @@ use righting_ocp::InitialGuess;
 
 use super::{InitialGuesses, LIMIT_SHARE};
 
-/// How often a start goes around its loop.
-const MOST_TURNS: usize = 3;
 /// Points of a loop at which it may begin, a quarter of it apart.
 const PHASES: usize = 4;
 /// Times that the plane of a loop is corrected so that the base turns about the axis wanted, and by how
@@ -35,14 +33,20 @@ impl InitialGuesses<'_> {
     /// the loop. The joints come back to where they were; the attitude is interpolated (slerp), which
     /// leads to better plans, in fewer iterations, than the attitude that the loop makes.
     ///
-    /// None where no small loop around the first posture turns the base about the axis.
-    pub(crate) fn joint_loops(&self, target: &Quaternion<f64>) -> Vec<InitialGuess> {
+    /// Those with these numbers, `(turns − 1) · 4 + quarter`. None where no small loop around the first
+    /// posture turns the base about the axis.
+    pub(crate) fn joint_loops(
+        &self,
+        target: &Quaternion<f64>,
+        numbers: &[usize],
+    ) -> Vec<InitialGuess> {
         let initial = self.scenario.initial();
         let (axis, angle_rad) = initial.attitude.conjugate().product(target).to_axis_angle();
         let Some(circle) = self.best_circle(&axis) else { return Vec::new() };
-        let kinds = (1..=MOST_TURNS).flat_map(|turns| (0..PHASES).map(move |phase| (turns, phase)));
-        kinds
-            .map(|(turns, phase)| {
+        numbers
+            .iter()
+            .map(|number| {
+                let (turns, phase) = (number / PHASES + 1, number % PHASES);
                 let circle = circle.started_at(phase as f64 * FRAC_PI_2);
                 let looped = self.scaled(&circle, turns, &axis, angle_rad);
                 self.turning_about(looped, &axis, angle_rad)
@@ -268,8 +272,8 @@ mod tests {
         with_guesses(|guesses| {
             let axis = Vector3::new(0.0, 0.6, 0.8);
             let target = Quaternion::from_axis_angle(&axis, 1.2);
-            let loops = guesses.joint_loops(&target);
-            assert_eq!(loops.len(), MOST_TURNS * PHASES);
+            let loops = guesses.joint_loops(&target, &[0, 5, 11]);
+            assert_eq!(loops.len(), 3);
             for guess in loops {
                 let end = guesses.coordinates.free_floating_state(guess.states.row(STEPS));
                 assert!(end.attitude.angle_to(&target) < 1e-9);

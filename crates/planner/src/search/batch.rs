@@ -1,9 +1,8 @@
-use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-use rayon::ThreadPoolBuilder;
+use rayon::ThreadPool;
 use righting_ocp::{Control, Grid, InitialGuess, OcpError, OcpSolution, Settings};
 use righting_results::IterationRecord;
 
@@ -26,21 +25,18 @@ pub(super) struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Solves from every start, on so many threads at most, and returns the solutions in the order
+    /// Solves from every start, on the threads of the pool, and returns the solutions in the order
     /// of the starts. `stop` ends all of them; `on_iteration` is only called from this thread.
     ///
     /// The solves share nothing that changes: which thread takes which start does not show.
     pub(super) fn solve(
         &self,
-        threads: NonZeroUsize,
+        pool: Option<&ThreadPool>,
         on_iteration: &mut dyn FnMut(&IterationRecord) -> Control,
         stop: &AtomicBool,
     ) -> Result<Vec<OcpSolution>, OcpError> {
-        let threads = threads.get().min(self.starts.len());
         // A machine that gives no threads still has this one.
-        let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else {
-            return self.solve_here(on_iteration, stop);
-        };
+        let Some(pool) = pool else { return self.solve_here(on_iteration, stop) };
         let mut solved: Vec<Option<Result<OcpSolution, OcpError>>> =
             self.starts.iter().map(|_| None).collect();
         pool.in_place_scope_fifo(|scope| {

@@ -27,6 +27,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use righting_ocp::{
     Attempt, Control, Grid, InitialGuess, OcpError, OcpSolution, Settings, close_guess_settings,
 };
@@ -60,8 +61,8 @@ pub(crate) struct Search<'a> {
     ranking: Ranking,
     /// The scenario as it is ranked.
     ranked: Scenario,
-    /// How many guesses are solved at a time at most.
-    threads: NonZeroUsize,
+    /// The threads that solve guesses; none where the machine gives none, or nothing is ranked.
+    pool: Option<ThreadPool>,
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     /// An earlier plan to start from too.
     earlier: Option<&'a Trajectory>,
@@ -108,6 +109,7 @@ impl<'a> Search<'a> {
         let ranking = Ranking::of(scenario);
         let substeps = accuracy::substeps_of_spin(scenario);
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
+        let pool = ThreadPoolBuilder::new().num_threads(threads.get());
         let is_ranked_apart = ranks && scenario.solver().formulation != Formulation::Reduced;
         let (model, ranking_model) =
             compiled(scenario, ranking, &stage_limits, substeps, is_ranked_apart)?;
@@ -120,7 +122,7 @@ impl<'a> Search<'a> {
             ranking,
             ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,
-            threads,
+            pool: ranks.then(|| pool.build().ok()).flatten(),
             on_iteration,
             earlier,
             coarse: Vec::new(),
@@ -187,25 +189,31 @@ impl<'a> Search<'a> {
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let guesses = model.initial_guesses(&self.ranked, grid.steps());
         let cold = settings::coarse(self.scenario);
-        let mut batches = portfolio::ranked_guesses(&self.ranked, &guesses);
-        if batches.is_empty() && self.earlier.is_some() {
-            batches.push(vec![guesses.constant()]);
+        let start = |guess| (guess, cold.clone());
+        let mut first = portfolio::ranked_guesses(&self.ranked, &guesses, 0);
+        if first.is_empty() && self.earlier.is_some() {
+            first.push(guesses.constant());
         }
-        let mut batches: Vec<Vec<(InitialGuess, Settings)>> = batches
-            .into_iter()
-            .map(|batch| batch.into_iter().map(|guess| (guess, cold.clone())).collect())
-            .collect();
-        if let (Some(earlier), Some(first)) = (self.earlier, batches.first_mut()) {
+        if first.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut first: Vec<(InitialGuess, Settings)> = first.into_iter().map(start).collect();
+        if let Some(earlier) = self.earlier {
             first.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
         }
-        let mut batches = batches.into_iter();
-        let Some(first) = batches.next() else { return Ok(Vec::new()) };
         let mut solutions = self.converged(grid, first)?;
         let agreed = portfolio::agree(&solutions);
-        for batch in batches {
+        for number in 1.. {
             if agreed || self.is_interrupted() {
                 break;
             }
+            let model = self.ranking_model.as_ref().unwrap_or(&self.model);
+            let guesses = model.initial_guesses(&self.ranked, grid.steps());
+            let batch = portfolio::ranked_guesses(&self.ranked, &guesses, number);
+            if batch.is_empty() {
+                break;
+            }
+            let batch = batch.into_iter().map(start).collect();
             solutions.append(&mut self.converged(grid, batch)?);
         }
         self.hop(grid, &mut solutions, portfolio::patience(self.scenario, agreed))?;
@@ -222,7 +230,7 @@ impl<'a> Search<'a> {
         starts.retain(|(guess, _)| guess.states.first_not_finite().is_none());
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
         let batch = Batch { model, grid, starts: &starts };
-        let mut solutions = batch.solve(self.threads, self.on_iteration, &self.stop)?;
+        let mut solutions = batch.solve(self.pool.as_ref(), self.on_iteration, &self.stop)?;
         for solution in &mut solutions {
             self.attempts.append(&mut solution.attempts);
         }

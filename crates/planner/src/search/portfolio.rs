@@ -34,43 +34,49 @@ pub(super) fn is_ranked(scenario: &Scenario) -> bool {
     !scenario.solver().is_paper()
 }
 
-/// The guesses to rank, batch by batch; none if nothing is ranked.
+/// The guesses of a batch to rank; none when there are no more batches, or nothing is ranked.
 pub(super) fn ranked_guesses(
     scenario: &Scenario,
     guesses: &InitialGuesses<'_>,
-) -> Vec<Vec<InitialGuess>> {
-    let constant = guesses.constant();
+    batch: usize,
+) -> Vec<InitialGuess> {
+    let is_first = batch == 0;
+    let constant = || is_first.then(|| guesses.constant());
     match (scenario.solver().guess, scenario.maneuver()) {
         (file::Guess::Named(NamedGuess::Constant), _) => Vec::new(),
         (file::Guess::Starts(LowDiscrepancyStarts { starts, .. }), _) => {
-            let spread = guesses.low_discrepancy(first(scenario)).take(starts as usize);
-            vec![std::iter::once(constant).chain(spread).collect()]
+            let count = if is_first { starts as usize } else { 0 };
+            let spread = guesses.low_discrepancy(first(scenario)).take(count);
+            constant().into_iter().chain(spread).collect()
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Detumble) => {
-            let slowest = guesses.least_final_rate(SCREENED_GUESSES, DETUMBLE_GUESSES);
-            vec![std::iter::once(constant).chain(slowest).collect()]
+            let slowest =
+                is_first.then(|| guesses.least_final_rate(SCREENED_GUESSES, DETUMBLE_GUESSES));
+            constant().into_iter().chain(slowest.into_iter().flatten()).collect()
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(slew)) => {
-            let loops = guesses.joint_loops(&slew.target);
-            let spread: Vec<InitialGuess> = guesses.low_discrepancy(0).take(8).collect();
-            let mut batches: Vec<Vec<InitialGuess>> = SLEW_BATCHES
+            let Some(SlewBatch { turning, simulated, loops }) = SLEW_BATCHES.get(batch) else {
+                return Vec::new();
+            };
+            let target = &slew.target;
+            let spread = |number: usize| guesses.low_discrepancy(number as u64).take(1);
+            let held = constant().map(|constant| guesses.turning_to(constant, target));
+            let turning = turning
                 .iter()
-                .map(|batch| {
-                    let turning = batch
-                        .turning
-                        .iter()
-                        .map(|&number| guesses.turning_to(spread[number].clone(), &slew.target));
-                    let simulated = batch
-                        .simulated
-                        .iter()
-                        .map(|&number| guesses.simulated(spread[number].clone()));
-                    let loops = batch.loops.iter().filter_map(|&number| loops.get(number).cloned());
-                    turning.chain(simulated).chain(loops).collect()
-                })
-                .collect();
-            batches[0].insert(0, guesses.turning_to(constant.clone(), &slew.target));
-            batches[0].insert(0, constant);
-            batches
+                .flat_map(|&number| spread(number))
+                .map(|guess| guesses.turning_to(guess, target));
+            let simulated = simulated
+                .iter()
+                .flat_map(|&number| spread(number))
+                .map(|guess| guesses.simulated(guess));
+            let loops = guesses.joint_loops(target, loops);
+            constant()
+                .into_iter()
+                .chain(held)
+                .chain(turning)
+                .chain(simulated)
+                .chain(loops)
+                .collect()
         }
     }
 }
