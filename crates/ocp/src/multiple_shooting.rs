@@ -3,6 +3,7 @@ use crate::decision_layout::{DecisionLayout, ShootingDimensions};
 use crate::error::OcpError;
 use crate::evaluator::Evaluator;
 use crate::grid::Grid;
+use crate::kkt::StageKkt;
 use crate::stage_functions::StageFunctions;
 use crate::stage_store::StageStore;
 use crate::structure::{HessianStructure, JacobianStructure};
@@ -22,6 +23,8 @@ pub struct MultipleShooting<'f> {
     pub(crate) store: StageStore,
     /// The decision vector at which `store` was filled.
     pub(crate) stored_at: Vec<f64>,
+    /// What solved the last system by stages: it knows the structure.
+    pub(crate) stages: Option<StageKkt>,
 }
 
 impl<'f> MultipleShooting<'f> {
@@ -64,6 +67,7 @@ impl<'f> MultipleShooting<'f> {
             evaluator: Evaluator::new(functions),
             store: StageStore::new(functions, Block::count_for(grid.steps())),
             stored_at: Vec::new(),
+            stages: None,
         })
     }
 

@@ -32,8 +32,12 @@ impl MultipleShooting<'_> {
         if settings.linear_solver == LinearSolverChoice::Mumps {
             return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
         }
-        let mut stage = StageKkt::new(&self.stage_dims()).stop_at_excess();
-        self.solve_in_stages(&start, settings, &mut stage, &mut on_iteration)
+        let known = self.stages.take();
+        let mut stages =
+            known.unwrap_or_else(|| StageKkt::new(&self.stage_dims()).stop_at_excess());
+        let solution = self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
+        self.stages = Some(stages);
+        solution
     }
 
     /// Solves with `stage`, and where that does not succeed with MUMPS if the settings allow.

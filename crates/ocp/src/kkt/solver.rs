@@ -21,6 +21,9 @@ pub struct StageKkt {
     layout: SystemLayout,
     lanes: Lanes,
     structure: Option<Structure>,
+    /// The triplets that have this structure.
+    rows: Vec<i32>,
+    columns: Vec<i32>,
     nodes: Vec<NodeFactor>,
     work: FactorWorkspace,
     solve_work: SolveWorkspace,
@@ -54,6 +57,8 @@ impl StageKkt {
             layout: SystemLayout::new(dims),
             lanes,
             structure: None,
+            rows: Vec::new(),
+            columns: Vec::new(),
             nodes: Vec::new(),
             work: FactorWorkspace::default(),
             solve_work: SolveWorkspace::default(),
@@ -68,8 +73,8 @@ impl StageKkt {
         self.layout.order
     }
 
-    /// Recognises the stage structure in the triplets: the fallible part of
-    /// [`LinearSolver::analyse`], with its own error.
+    /// Recognises the stage structure in the triplets, anew where they are not those of the last time: the
+    /// fallible part of [`LinearSolver::analyse`], with its own error.
     ///
     /// # Errors
     /// When the matrix does not have the structure; then another solver has to be used.
@@ -79,13 +84,20 @@ impl StageKkt {
         rows: &[i32],
         columns: &[i32],
     ) -> Result<(), KktStructureError> {
-        self.structure = None;
         self.factorised = false;
+        self.pivot_tolerance = PIVOT_TOLERANCE;
+        let is_known = self.order() == order && self.rows == rows && self.columns == columns;
+        if is_known && self.structure.is_some() {
+            return Ok(());
+        }
+        self.structure = None;
         let structure = Structure::analyse(&self.layout, order, rows, columns, self.lanes.width())?;
         let lanes = self.lanes.width();
         let node = |k| NodeFactor::new(structure.pattern(k), lanes);
         self.nodes = (0..self.layout.nodes.len()).map(node).collect();
         self.work = FactorWorkspace::default();
+        self.rows = rows.to_vec();
+        self.columns = columns.to_vec();
         self.structure = Some(structure);
         Ok(())
     }

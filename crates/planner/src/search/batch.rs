@@ -1,12 +1,14 @@
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
-use righting_ocp::{Control, Grid, InitialGuess, OcpError, OcpSolution, Settings};
+use righting_ocp::{
+    Control, Grid, InitialGuess, MultipleShooting, OcpError, OcpSolution, Settings,
+};
 use righting_results::IterationRecord;
 
-use super::model::Model;
+use super::model::{Model, solve_from};
 
 /// How often a solve shows where it is: an iteration takes less time than waking the thread that shows
 /// it.
@@ -19,16 +21,26 @@ enum Event {
 
 /// Solves of one problem from several starts.
 pub(super) struct Batch<'a> {
-    pub(super) model: &'a Model,
-    pub(super) grid: Grid,
-    pub(super) starts: &'a [(InitialGuess, Settings)],
+    model: &'a Model,
+    grid: Grid,
+    starts: &'a [(InitialGuess, Settings)],
+    /// Programs that no thread is at work on. The next solve is spared their set-up.
+    idle: Mutex<Vec<MultipleShooting<'a>>>,
 }
 
-impl Batch<'_> {
+impl<'a> Batch<'a> {
+    pub(super) fn new(
+        model: &'a Model,
+        grid: Grid,
+        starts: &'a [(InitialGuess, Settings)],
+    ) -> Self {
+        Self { model, grid, starts, idle: Mutex::default() }
+    }
+
     /// Solves from every start, on the threads of the pool, and returns the solutions in the order
     /// of the starts. `stop` ends all of them; `on_iteration` is only called from this thread.
     ///
-    /// The solves share nothing that changes: which thread takes which start does not show.
+    /// The solves share nothing that changes them: which thread takes which start does not show.
     pub(super) fn solve(
         &self,
         pool: Option<&ThreadPool>,
@@ -88,6 +100,11 @@ impl Batch<'_> {
         (guess, settings): &(InitialGuess, Settings),
         on_iteration: impl FnMut(IterationRecord) -> Control,
     ) -> Result<OcpSolution, OcpError> {
-        self.model.solve(self.grid, guess.clone(), settings, on_iteration)
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let free = idle().pop();
+        let mut program = free.map_or_else(|| self.model.program(self.grid), Ok)?;
+        let solution = solve_from(guess.clone(), &mut program, settings, on_iteration);
+        idle().push(program);
+        solution
     }
 }

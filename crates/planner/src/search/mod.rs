@@ -229,7 +229,7 @@ impl<'a> Search<'a> {
     ) -> Result<Vec<OcpSolution>, OcpError> {
         starts.retain(|(guess, _)| guess.states.first_not_finite().is_none());
         let model = self.ranking_model.as_ref().unwrap_or(&self.model);
-        let batch = Batch { model, grid, starts: &starts };
+        let batch = Batch::new(model, grid, &starts);
         let mut solutions = batch.solve(self.pool.as_ref(), self.on_iteration, &self.stop)?;
         for solution in &mut solutions {
             self.attempts.append(&mut solution.attempts);

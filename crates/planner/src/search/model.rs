@@ -73,17 +73,18 @@ impl Model {
         grid: Grid,
         guess: InitialGuess,
         settings: &Settings,
-        mut on_iteration: impl FnMut(IterationRecord) -> Control,
+        on_iteration: impl FnMut(IterationRecord) -> Control,
     ) -> Result<OcpSolution, OcpError> {
+        solve_from(guess, &mut self.program(grid)?, settings, on_iteration)
+    }
+
+    /// The program on a grid.
+    pub(super) fn program(&self, grid: Grid) -> Result<MultipleShooting<'_>, OcpError> {
         // Steps as long as those of the asked grid need as many Runge–Kutta steps.
         let is_as_coarse = grid.step_s() < self.asked_step_s * (1.0 + SAME_STEP);
         let functions =
             if is_as_coarse { self.asked_functions() } else { self.ranking_functions() };
-        let mut program = MultipleShooting::new(functions, grid, &self.initial)?;
-        let mut stall = StallCheck::default();
-        program.solve(&OcpStart::Guess(guess), settings, |iteration| {
-            stall.watched(record(iteration), &mut on_iteration)
-        })
+        MultipleShooting::new(functions, grid, &self.initial)
     }
 
     /// What coarser grids than the asked one are solved with.
@@ -163,4 +164,17 @@ impl Model {
         }
         InitialGuess { states, controls: controls.clone() }
     }
+}
+
+/// Solves a program from a guess.
+pub(super) fn solve_from(
+    guess: InitialGuess,
+    program: &mut MultipleShooting<'_>,
+    settings: &Settings,
+    mut on_iteration: impl FnMut(IterationRecord) -> Control,
+) -> Result<OcpSolution, OcpError> {
+    let mut stall = StallCheck::default();
+    program.solve(&OcpStart::Guess(guess), settings, |iteration| {
+        stall.watched(record(iteration), &mut on_iteration)
+    })
 }
