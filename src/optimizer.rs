@@ -42,5 +42,6 @@ fn replace_process(_: &mut Command) {}
 /// Its BLAS gets one thread: more of them make the small fronts of these problems slower and the
 /// rounding depend on the machine.
 pub fn load() -> Result<(), Failure> {
+    righting_ipopt::keep_freed_memory();
     Ok(righting_ipopt::use_one_blas_thread()?)
 }
