@@ -24,6 +24,8 @@ pub(crate) struct Chain {
     pub total_mass: f64,
     /// The base with all that is fixed to it, about the body-frame origin.
     pub base: MassMoments,
+    /// What of that lies beyond the mount, about the body-frame origin.
+    pub foot: MassMoments,
     /// Turns vectors of the frame that joint 1 turns in into body axes.
     pub root_rotation: Matrix3<f64>,
     /// Origin of K(1), body axes.
@@ -71,6 +73,7 @@ impl Chain {
         let mut chain = Self {
             total_mass: 0.0,
             base: MassMoments::of_body(base.mass_kg, Vector3::zeros(), &base.inertia_kg_m2),
+            foot: MassMoments::zero(),
             root_rotation: mount_rotation,
             root_position: mount.position_m,
             root: RootCoupling::none(),
@@ -107,6 +110,7 @@ impl Chain {
                         None => {
                             let body = row.body.placed(&mount_rotation, &mount.position_m);
                             chain.base = chain.base.joined(&body);
+                            chain.foot = chain.foot.joined(&body);
                             let center = mount.position_m + mount_rotation * row.center;
                             chain.link_centers.push(LinkCenter::OnBase(center));
                         }

@@ -20,11 +20,22 @@ use righting_scalar::Scalar;
 pub struct InverseDynamics<T> {
     /// Torque of each joint's motor on its outboard link about the joint's axis (j), N m.
     pub joint_torques: Vec<T>,
+    /// What the base and the arm do to each other at the mount.
+    pub mount: MountLoad<T>,
     /// Force from outside on the base, body axes, N: zero for a free-floating motion.
     pub base_force: Vector3<T>,
     /// Moment from outside on the base about the body-frame origin, body axes, N m: zero for a
     /// free-floating motion.
     pub base_moment: Vector3<T>,
+}
+
+/// What the base does to all that lies beyond the mount, body axes; the arm does the opposite to the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MountLoad<T> {
+    /// Force, N.
+    pub force: Vector3<T>,
+    /// Moment about the mount, N m.
+    pub moment: Vector3<T>,
 }
 
 /// Motion of a frame: its spin, and velocity or acceleration of its origin, in its own axes.
@@ -117,8 +128,19 @@ impl System {
             linear: constant_rotation(rotation, &beyond.linear),
             angular: constant_rotation(rotation, &beyond.angular),
         };
-        let total = carried.shifted(&chain.root_position).plus(&body.load_of(&chain.base));
-        InverseDynamics { joint_torques, base_force: total.linear, base_moment: total.angular }
+        let about_base = carried.shifted(&chain.root_position);
+        let total = about_base.plus(&body.load_of(&chain.base));
+        let mut mount = carried.shifted(&(chain.root_position - self.mount().position_m));
+        if chain.foot.mass > 0.0 {
+            let foot = body.load_of(&chain.foot).shifted(&-self.mount().position_m);
+            mount = mount.plus(&foot);
+        }
+        InverseDynamics {
+            joint_torques,
+            mount: MountLoad { force: mount.linear, moment: mount.angular },
+            base_force: total.linear,
+            base_moment: total.angular,
+        }
     }
 
     /// Joint torques (j, N m) of the free-floating system turning at `omega` (body axes, rad/s)

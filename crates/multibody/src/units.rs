@@ -18,6 +18,11 @@ pub struct Units {
 impl Units {
     /// Metre, kilogram, second.
     pub const SI: Self = Self { length_m: 1.0, mass_kg: 1.0, time_s: 1.0 };
+
+    /// The unit of torque and of energy, N m.
+    pub fn torque_n_m(&self) -> f64 {
+        self.mass_kg * (self.length_m / self.time_s).powi(2)
+    }
 }
 
 impl System {

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use righting_ocp::Samples;
 use righting_scenario::JointLimits;
 
-use crate::formulation::{Clearances, Coordinates};
+use crate::formulation::{Clearances, Coordinates, Loads};
 use approach::Approach;
 
 /// How far an angle may be past its limit, rad: nine tenths of what the verifier lets pass, as below.
@@ -18,6 +18,10 @@ const ANGLE_RAD: f64 = 9e-4;
 const CLEARANCE_SHARE: f64 = 0.09;
 /// … how much of the system's size at most, and how little is nothing.
 const MOST_LACKING: f64 = 9e-4;
+/// How much of its limit a load may be past it, …
+const LOAD_SHARE: f64 = 9e-3;
+/// … looked at where so many equal parts of a step end.
+const LOAD_PARTS: usize = 8;
 const LEAST_LACKING: f64 = 9e-7;
 
 /// The limits that are passed between nodes.
@@ -27,6 +31,8 @@ pub(crate) struct PassedLimits {
     pub(crate) joints: BTreeSet<usize>,
     /// Clearances that are not kept, by their place in [`Clearances`].
     pub(crate) clearances: BTreeMap<usize, PassedClearance>,
+    /// Whether a load is.
+    pub(crate) has_load: bool,
 }
 
 /// A clearance that is not kept between nodes.
@@ -40,7 +46,7 @@ pub(crate) struct PassedClearance {
 
 impl PassedLimits {
     pub(crate) fn is_empty(&self) -> bool {
-        self.joints.is_empty() && self.clearances.is_empty()
+        self.joints.is_empty() && self.clearances.is_empty() && !self.has_load
     }
 
     /// Whether things go through each other.
@@ -81,7 +87,7 @@ impl Step<'_> {
 /// `controls`, and `duration` is the length of a step.
 pub(crate) fn passed_limits(
     joint_limits: &[JointLimits],
-    clearances: &Clearances,
+    (clearances, loads): (&Clearances, &Loads),
     coordinates: &Coordinates,
     states: &Samples,
     controls: &Samples,
@@ -106,6 +112,10 @@ pub(crate) fn passed_limits(
             }
         }
         approach.follow(&step, coordinates.joint_angles(next), &mut passed.clearances);
+        passed.has_load = passed.has_load
+            || !loads.is_empty()
+                && loads.largest_share(coordinates, (x, u), duration, LOAD_PARTS)
+                    > 1.0 + LOAD_SHARE;
     }
     passed
 }

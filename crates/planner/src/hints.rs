@@ -10,6 +10,8 @@ use crate::spin::fast_spin;
 
 /// So close to a limit, as a share of it, it counts as reached.
 const AT_LIMIT: f64 = 1e-3;
+/// The same of a torque, which is stated at both ends of a step and changes within.
+const NEAR_TORQUE: f64 = 0.02;
 /// A limit reached in so much of the time is worth naming.
 const MOST_OF_THE_TIME: f64 = 0.5;
 /// How much longer than the estimate a slew should take, for the estimate to be enough.
@@ -119,6 +121,10 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
         let moving =
             nodes.iter().filter(|n| is_fast(n.joint_rates_rad_s[joint], limits.rate_max_rad_s));
         note(joint, "rate", moving.count(), nodes.len());
+        let pushing = intervals.iter().filter(|interval| {
+            interval.joint_torques_n_m[joint].abs() >= (1.0 - NEAR_TORQUE) * limits.torque_max_n_m
+        });
+        note(joint, "torque", pushing.count(), intervals.len());
         let margin = AT_LIMIT * (limits.angle_max_rad - limits.angle_min_rad);
         let turned = nodes.iter().filter(|n| {
             let angle = n.joint_angles_rad[joint];

@@ -324,6 +324,10 @@ pub struct Base {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub keep_out_radius_m: Option<f64>,
+    /// Largest angular rate of the base along the way, as a vector's length, deg/s; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub angular_rate_max_deg_s: Option<f64>,
 }
 
 /// Where the arm's frame 0 sits on the base.
@@ -335,6 +339,14 @@ pub struct Mount {
     /// Orientation of frame 0: unit quaternion w, x, y, z, frame 0 → body; identity by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<[f64; 4]>,
+    /// Largest force between base and arm at the mount, N; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub force_max_n: Option<f64>,
+    /// Largest moment between base and arm about the mount, N m; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub moment_max_n_m: Option<f64>,
 }
 
 /// What a row of Denavit–Hartenberg parameters means.
@@ -390,6 +402,11 @@ pub struct Link {
     /// Largest joint acceleration in magnitude, deg/s².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub acceleration_max_deg_s2: f64,
+    /// Largest torque of the joint's motor in magnitude, N m; none by default. Of a locked joint the torque
+    /// that holds it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub torque_max_n_m: Option<f64>,
     /// Whether the link may be inside the keep-out sphere: for one that starts there, as part of the
     /// mount does. It is then not kept away from the base at all.
     #[serde(default)]

@@ -5,10 +5,11 @@ use std::f64::consts::PI;
 use crate::error::Error;
 use crate::file;
 use crate::json::{Bounds, Location, Number};
+use crate::load_limits::LOAD;
 
 const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
 // Of a clock that runs a hundred times slower, too.
-const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
+pub(crate) const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
 const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 3.6e9);
 
 /// What a joint can do. One whose smallest angle is its largest is locked: it holds that angle,
@@ -23,6 +24,8 @@ pub struct JointLimits {
     pub rate_max_rad_s: f64,
     /// Largest acceleration in magnitude, rad/s².
     pub acceleration_max_rad_s2: f64,
+    /// Largest torque of the motor in magnitude, N m; +∞ if there is no limit.
+    pub torque_max_n_m: f64,
 }
 
 impl JointLimits {
@@ -41,6 +44,9 @@ impl JointLimits {
         place.key("rate_max_deg_s").within(row.rate_max_deg_s, RATE_DEG_S)?;
         let acceleration_place = place.key("acceleration_max_deg_s2");
         acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        if let Some(torque_n_m) = row.torque_max_n_m {
+            place.key("torque_max_n_m").within(torque_n_m, LOAD)?;
+        }
         Ok(Self::of(row))
     }
 
@@ -52,6 +58,7 @@ impl JointLimits {
             angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
             rate_max_rad_s: row.rate_max_deg_s.to_radians(),
             acceleration_max_rad_s2: row.acceleration_max_deg_s2.to_radians(),
+            torque_max_n_m: row.torque_max_n_m.unwrap_or(f64::INFINITY),
         }
     }
 

@@ -13,6 +13,7 @@ use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
 use crate::rounding::{COMPUTED, PRINTED};
 use crate::start_clearance::Start;
 use crate::start_limits::widen_to_start;
+use crate::start_loads;
 use crate::system_description::{SystemDescription, read_system};
 
 pub use crate::horizon::{Horizon, LONGEST_S, MAX_STEPS};
@@ -89,6 +90,8 @@ impl Scenario {
             system.joint_limits = file.links.iter().map(JointLimits::of).collect();
         }
         let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
+        let rate_place = initial_place.key("angular_rate_deg_s");
+        start_loads::check(&system, &initial, &rate_place, &links_place)?;
         let maneuver = Maneuver::from_file(&scenario.maneuver, &initial, &place.key("maneuver"))?;
         let momentum_note =
             check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;

@@ -11,6 +11,7 @@ use crate::file;
 use crate::inertias::Parts;
 use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
+use crate::load_limits::LoadLimits;
 use crate::rounding::COMPUTED;
 
 /// The most joints an arm may have.
@@ -39,6 +40,8 @@ pub struct SystemDescription {
     pub keep_out_radius_m: f64,
     /// Limits, one a joint.
     pub joint_limits: Vec<JointLimits>,
+    /// What the mount bears, and how fast the base may turn.
+    pub load_limits: LoadLimits,
     /// Whether a link may be inside the keep-out sphere, such as a part of the mount; one a link.
     pub body_exempt: Vec<bool>,
 }
@@ -109,6 +112,7 @@ impl SystemDescription {
             model,
             keep_out_radius_m,
             joint_limits,
+            load_limits: LoadLimits::from_file(system, place)?,
             body_exempt: system.links.iter().map(|link| link.body_exempt).collect(),
         })
     }

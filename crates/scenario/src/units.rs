@@ -5,6 +5,7 @@ use righting_multibody::{ModelError, Units};
 use crate::collision::CollisionModel;
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
+use crate::load_limits::LoadLimits;
 use crate::scenario::{Horizon, Scenario, Weights};
 use crate::system_description::SystemDescription;
 
@@ -34,14 +35,27 @@ impl SystemDescription {
         let limits = self.joint_limits.iter().map(|limits| JointLimits {
             rate_max_rad_s: limits.rate_max_rad_s * units.time_s,
             acceleration_max_rad_s2: limits.acceleration_max_rad_s2 * units.time_s.powi(2),
+            torque_max_n_m: limits.torque_max_n_m / units.torque_n_m(),
             ..*limits
         });
         Ok(Self {
             model: self.model.in_units(units)?,
             keep_out_radius_m: self.keep_out_radius_m / units.length_m,
             joint_limits: limits.collect(),
+            load_limits: self.load_limits.in_units(units),
             ..self.clone()
         })
+    }
+}
+
+impl LoadLimits {
+    fn in_units(&self, units: &Units) -> Self {
+        let torque_n_m = units.torque_n_m();
+        Self {
+            mount_force_max_n: self.mount_force_max_n * units.length_m / torque_n_m,
+            mount_moment_max_n_m: self.mount_moment_max_n_m / torque_n_m,
+            angular_rate_max_rad_s: self.angular_rate_max_rad_s * units.time_s,
+        }
     }
 }
 

@@ -270,6 +270,13 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/system/links/3/rate_max_deg_s", json!(0), "above 0"),
         ("/system/links/3/rate_max_deg_s", json!(-17.2), "above 0"),
         ("/system/links/3/acceleration_max_deg_s2", json!(0), "above 0"),
+        ("/system/links/3/torque_max_n_m", json!(0), "above 0"),
+        ("/system/links/3/torque_max_n_m", json!(-5), "found -5, expected a number above 0"),
+        ("/system/links/3/torque_max_n_m", json!(1e308), "found 1e308, expected"),
+        ("/system/mount/force_max_n", json!(0), "above 0"),
+        ("/system/mount/moment_max_n_m", json!(-1), "found -1, expected a number above 0"),
+        ("/system/base/angular_rate_max_deg_s", json!(0), "above 0"),
+        ("/system/base/angular_rate_max_deg_s", json!([1, 1, 1]), "expected a number"),
         ("/system/links/3/center_of_mass_m", json!([0, 0]), "an array of 3"),
         ("/system/links/3/inertia_kg_m2", json!([[1, 0, 0], [0, 1, 0]]), "an array of 3"),
         (
@@ -320,6 +327,26 @@ fn fields_that_contradict_each_other_are_refused() {
             vec![("/initial/joint_rates_deg_s", json!([0, 0, 18, 0]))],
             "initial.joint_rates_deg_s[2]",
             "at most 17.2 in magnitude, the limit of joint 3",
+        ),
+        (
+            vec![
+                ("/maneuver", json!({ "type": "detumble" })),
+                ("/initial/angular_rate_deg_s", json!([0, 3, 4])),
+                ("/system/base/angular_rate_max_deg_s", json!(4.9)),
+            ],
+            "initial.angular_rate_deg_s",
+            "found 5 deg/s in all, expected at most base.angular_rate_max_deg_s, 4.9",
+        ),
+        (
+            vec![
+                ("/maneuver", json!({ "type": "detumble" })),
+                ("/initial/angular_rate_deg_s", json!([80, 10, 10])),
+                ("/initial/joint_angles_deg", json!([0, 60, 0, 0])),
+                ("/system/links/1/torque_max_n_m", json!(0.1)),
+                ("/system/links/1/acceleration_max_deg_s2", json!(0.1)),
+            ],
+            "system.links[1].torque_max_n_m",
+            "joint 2 needs as much at the start",
         ),
         (
             vec![("/initial/joint_rates_deg_s", json!([0, 5, 0, 0]))],

@@ -59,6 +59,7 @@ fn link() -> impl Strategy<Value = file::Link> {
                 angle_max_deg: None,
                 rate_max_deg_s: 1000.0,
                 acceleration_max_deg_s2: 1000.0,
+                torque_max_n_m: None,
                 body_exempt: false,
                 // In its own frame a mass needs both.
                 inertial_frame: frame
@@ -78,6 +79,7 @@ fn base() -> impl Strategy<Value = file::Base> {
         cube_side_m,
         inertia_kg_m2,
         keep_out_radius_m: Some(0.0),
+        angular_rate_max_deg_s: None,
     })
 }
 
@@ -98,7 +100,12 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                 name: "arm".to_owned(),
                 description: None,
                 base,
-                mount: file::Mount { position_m, rotation },
+                mount: file::Mount {
+                    position_m,
+                    rotation,
+                    force_max_n: None,
+                    moment_max_n_m: None,
+                },
                 dh_convention,
                 links,
                 project_inertias: false,

@@ -20,7 +20,12 @@ impl Units {
         let scale_inertia = |rows: &mut Option<[[f64; 3]; 3]>| {
             rows.iter_mut().flatten().flatten().for_each(|entry| *entry *= inertia);
         };
+        let torque = inertia / time.powi(2);
+        let mount = &mut system.mount;
+        mount.force_max_n = mount.force_max_n.map(|force_n| force_n * torque / length);
+        mount.moment_max_n_m = mount.moment_max_n_m.map(|moment_n_m| moment_n_m * torque);
         let base = &mut system.base;
+        base.angular_rate_max_deg_s = base.angular_rate_max_deg_s.map(|rate| rate / time);
         base.mass_kg *= mass;
         base.cube_side_m = base.cube_side_m.map(|side_m| side_m * length);
         base.keep_out_radius_m = base.keep_out_radius_m.map(|radius_m| radius_m * length);
@@ -32,6 +37,7 @@ impl Units {
             link.d_m *= length;
             link.rate_max_deg_s /= time;
             link.acceleration_max_deg_s2 /= time * time;
+            link.torque_max_n_m = link.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
             link.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
             scale_inertia(&mut link.inertia_kg_m2);
         }

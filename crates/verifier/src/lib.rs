@@ -63,6 +63,7 @@ mod goal;
 mod joints;
 mod ledger;
 mod limits;
+mod loads;
 pub mod model;
 mod motion_bound;
 mod requirements;

@@ -65,7 +65,7 @@ use righting_scenario::file;
 use body::Body;
 use row::{Convention, Row};
 
-pub use dynamics::BaseAcceleration;
+pub use dynamics::{BaseAcceleration, MountLoad};
 pub use motion::{BodyMotion, FrameMotion, Motion};
 pub use segment::Segment;
 pub use state::State;

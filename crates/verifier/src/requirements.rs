@@ -6,6 +6,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::clearances::Clearances;
 use crate::goal::Goal;
+use crate::loads::LoadLimits;
 use crate::model::{BaseAcceleration, Model, Motion, State};
 use crate::motion_bound::Reach;
 use crate::tolerances::{Measures, Tolerances};
@@ -20,6 +21,7 @@ pub(super) struct Requirements {
     pub goal: Goal,
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
+    pub load_limits: LoadLimits,
     pub clearances: Clearances,
     pub reach: Reach,
     pub tolerances: Tolerances,
@@ -59,6 +61,7 @@ impl Requirements {
             goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
+            load_limits: LoadLimits::new(system),
             clearances: Clearances::new(system, clearance_m),
             reach: Reach::new(system),
             model,

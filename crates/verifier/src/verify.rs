@@ -9,6 +9,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 use crate::goal::Goal;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::limits;
+use crate::loads;
 use crate::model::{BaseAcceleration, Motion, State};
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
@@ -47,6 +48,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     check_momentum(&asked, trajectory, &mut ledger);
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
+    loads::check(&asked, trajectory, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     ledger.finish()
 }

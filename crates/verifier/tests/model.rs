@@ -103,9 +103,13 @@ proptest! {
         assert_near("the state's derivative", &rate, &theirs.state_derivative(&x, u), 1e-12, 1.0);
 
         let mut torques = vec![0.0; q.len()];
-        ours.joint_torques(&state, u, &mut room, &mut torques);
-        let theirs = theirs.joint_torques(&omega, q, qdot, u);
-        assert_near("torques", &torques, &theirs, 1e-12, 10.0);
+        let mount = ours.joint_torques(&state, u, &mut room, &mut torques);
+        let base = theirs.base_acceleration(&omega, q, qdot, u);
+        let theirs = theirs.inverse_dynamics(&base, &omega, q, qdot, u);
+        assert_near("torques", &torques, &theirs.joint_torques, 1e-12, 10.0);
+        let rotation = room.base().rotation;
+        near("force at the mount", mount.force, rotation * theirs.mount.force, 10.0);
+        near("moment at the mount", mount.moment, rotation * theirs.mount.moment, 10.0);
         // No load from outside.
         let force: Vector3<f64> = room.bodies().iter().map(|body| body.force).sum();
         let moment: Vector3<f64> =

@@ -7,6 +7,8 @@ use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;
 
+use super::loads::Moment;
+
 /// The states of the optimal control problem.
 ///
 /// ```text
@@ -137,13 +139,11 @@ impl Coordinates {
 
     /// ẋ for the joint accelerations `u`.
     pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
-        let moving = u.iter().zip(self.locked.iter());
-        let u: Vec<T> =
-            moving.map(|(&u, &is_locked)| if is_locked { T::from(0.0) } else { u }).collect();
+        let u = self.accelerations(u);
         match self.formulation {
             Formulation::Full => self.system.state_derivative(x, &u),
             Formulation::Reduced => {
-                let attitude = reduced_attitude(x);
+                let attitude = self.attitude_of(x);
                 let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
                 [&turning[..], self.joint_rates(x), &u].concat()
             }
@@ -156,7 +156,7 @@ impl Coordinates {
             Formulation::Full => State::from_slice(x).expect("the full form's states"),
             Formulation::Reduced => {
                 let (q, qdot) = (self.joint_angles(x), self.joint_rates(x));
-                let attitude = reduced_attitude(x);
+                let attitude = self.attitude_of(x);
                 let angular_rate = self.reduced_angular_rate(&attitude, x);
                 State {
                     position: self.system.base_position(&attitude, q, &self.center.map(T::from)),
@@ -168,6 +168,44 @@ impl Coordinates {
                 }
             }
         }
+    }
+
+    /// The motion at a time `s` after the beginning of a step from state `x` with the joint accelerations
+    /// `u`.
+    pub(crate) fn within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Moment<T> {
+        let u = self.accelerations(u);
+        let joints = self.joint_angles(x).iter().zip(self.joint_rates(x)).zip(&u);
+        let (joint_angles, joint_rates): (Vec<T>, Vec<T>) = joints
+            .map(|((&angle, &rate), &u)| (angle + s * (rate + s * u * 0.5), rate + s * u))
+            .unzip();
+        let h_body = match self.momentum == Vector3::zeros() {
+            true => Vector3::from_element(T::from(0.0)),
+            false => {
+                let attitude = self.attitude_of(x);
+                let rate = match self.formulation {
+                    Formulation::Full => Vector3::new(x[10], x[11], x[12]),
+                    Formulation::Reduced => self.reduced_angular_rate(&attitude, x),
+                };
+                let (here, turning) = (attitude.to_array(), attitude.rate(&rate).to_array());
+                let there =
+                    Quaternion::from_array(std::array::from_fn(|i| here[i] + s * turning[i]));
+                let length = there.norm_squared().recip();
+                there.to_body(&self.momentum.map(T::from)).map(|entry| entry * length)
+            }
+        };
+        let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
+        Moment { angular_rate, joint_angles, joint_rates, joint_accelerations: u }
+    }
+
+    /// The joint accelerations that controls make: a locked joint has none.
+    pub(super) fn accelerations<T: Scalar>(&self, u: &[T]) -> Vec<T> {
+        let moving = u.iter().zip(self.locked.iter());
+        moving.map(|(&u, &is_locked)| if is_locked { T::from(0.0) } else { u }).collect()
+    }
+
+    fn attitude_of<T: Scalar>(&self, x: &[T]) -> Quaternion<T> {
+        let first = self.attitude().start;
+        Quaternion::from_array(std::array::from_fn(|i| x[first + i]))
     }
 
     fn reduced_angular_rate<T: Scalar>(&self, attitude: &Quaternion<T>, x: &[T]) -> Vector3<T> {
@@ -185,8 +223,4 @@ impl Coordinates {
         let rest = Vector3::from_element(T::from(0.0));
         self.system.base_velocity(attitude, angular_rate, q, qdot, &rest)
     }
-}
-
-fn reduced_attitude<T: Scalar>(x: &[T]) -> Quaternion<T> {
-    Quaternion::new(x[0], x[1], x[2], x[3])
 }

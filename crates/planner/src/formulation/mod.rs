@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! min  Σ_{k<N} w_u (Δt / 0.05 s) ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
-//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)²
+//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps
 //! ```
 //!
 //! (the paper's equations 6–14). The desired position, velocity, rates and joint angles are those of
@@ -10,6 +10,7 @@
 //! square is smooth where two links meet.
 
 mod coordinates;
+mod loads;
 mod stage_limits;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
 pub(crate) use coordinates::Coordinates;
+pub(crate) use loads::Loads;
 use righting_scenario::collision::{Between, CollisionModel};
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
@@ -39,7 +41,7 @@ pub struct FormulatedManeuver {
 impl FormulatedManeuver {
     /// In the scenario's own form.
     pub fn new(scenario: &Scenario) -> Self {
-        Self::in_form(scenario, scenario.solver().formulation, &StageLimits::default())
+        Self::in_form(scenario, scenario.solver().formulation, &StageLimits::asked())
     }
 
     /// In a form, with limits that are stated within the steps too.
@@ -74,8 +76,9 @@ impl FormulatedManeuver {
         let goal = Goal::of(scenario);
         let clearances = Clearances::new(scenario);
         let path = coordinates.clone();
-        let stage_bounds = stage_limits.bounds(limits, &clearances);
-        let within = (stage_limits.clone(), coordinates.clone(), clearances.clone());
+        let loads = Loads::new(scenario);
+        let stage_bounds = stage_limits.bounds(limits, &clearances, &loads);
+        let within = (stage_limits.clone(), coordinates.clone(), clearances.clone(), loads);
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
             .running_cost(move |_, u| sum_of_squares(u) * control)
             .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
@@ -85,8 +88,8 @@ impl FormulatedManeuver {
                 clearances.squared_distances(path.joint_angles(x))
             })
             .stage_constraints(stage_bounds, move |x, u, h| {
-                let (stage_limits, coordinates, clearances) = &within;
-                stage_limits.values(coordinates, clearances, (x, u), h)
+                let (stage_limits, coordinates, clearances, loads) = &within;
+                stage_limits.values(coordinates, (clearances, loads), (x, u), h)
             });
         // The paper transcribes all states, and which ones there are decides where its guess leads.
         let problem = match scenario.solver().is_paper() {

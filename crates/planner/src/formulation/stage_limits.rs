@@ -11,34 +11,42 @@
 //! linear. It asks for up to Δt²/8 |u| more than is needed. So a long step is taken as m curves, one after
 //! the other, with the middle points q(s) + Δt/2m q̇(s) at s = 0, Δt/m, …; these ask for 1/m² of that.
 //!
-//! Distances are stated at places within the step, which x_k and u_k decide alone.
+//! Distances are stated at places within the step, which x_k and u_k decide alone. So are loads, which have no
+//! other place: see [`Loads`].
 
 use std::collections::BTreeMap;
 
 use righting_ocp::{ComponentBounds, Expr};
 use righting_scenario::JointLimits;
 
-use super::{Clearances, Coordinates};
+use super::{Clearances, Coordinates, Loads};
 
 /// By how much more than needed a joint may be kept from its limit, rad …
 const MOST_TOO_MUCH_RAD: f64 = 2e-3;
 /// … if so many curves a step are enough for that.
 const MOST_CURVES: usize = 4;
 
-/// The joints and clearances whose limits are stated within the steps too.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The joints, clearances and loads whose limits are stated within the steps.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageLimits {
     /// Joints, counted from zero, and the number of curves that each of their steps is taken as.
     pub(crate) joints: BTreeMap<usize, usize>,
     /// Clearances, by their place among those that the joints decide, and the number of equal parts of
     /// a step between which each is stated.
     pub(crate) clearances: BTreeMap<usize, usize>,
+    /// The number of equal parts of a step at whose ends loads are stated.
+    pub(crate) load_parts: usize,
 }
 
 impl StageLimits {
-    /// Whether there is none.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.joints.is_empty() && self.clearances.is_empty()
+    /// Those of a problem as it is asked: loads at both ends of every step.
+    pub(crate) fn asked() -> Self {
+        Self { joints: BTreeMap::new(), clearances: BTreeMap::new(), load_parts: 1 }
+    }
+
+    /// Whether none is stated beyond those asked.
+    pub(crate) fn is_as_asked(&self) -> bool {
+        *self == Self::asked()
     }
 
     /// How many curves a step of length `h` of a joint is taken as.
@@ -52,6 +60,7 @@ impl StageLimits {
         &self,
         joint_limits: &[JointLimits],
         clearances: &Clearances,
+        loads: &Loads,
     ) -> ComponentBounds {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for (&joint, &curves) in &self.joints {
@@ -66,22 +75,21 @@ impl StageLimits {
                 upper.push(f64::INFINITY);
             }
         }
-        ComponentBounds::new(lower, upper)
+        let of_loads = loads.bounds(self.load_parts);
+        ComponentBounds::new([lower, of_loads.lower].concat(), [upper, of_loads.upper].concat())
     }
 
-    /// The middle control points of the joints' curves, then the squared distances within a step of
-    /// length `h`.
+    /// The middle control points of the joints' curves, then the squared distances, then the loads within
+    /// a step of length `h`.
     pub(super) fn values(
         &self,
         coordinates: &Coordinates,
-        clearances: &Clearances,
+        (clearances, loads): (&Clearances, &Loads),
         (x, u): (&[Expr], &[Expr]),
         h: Expr,
     ) -> Vec<Expr> {
         let (angles, rates) = (coordinates.joint_angles(x), coordinates.joint_rates(x));
-        let u: Vec<Expr> = (u.iter().enumerate())
-            .map(|(joint, &u)| if coordinates.is_locked(joint) { Expr::constant(0.0) } else { u })
-            .collect();
+        let u = coordinates.accelerations(u);
         let mut values = Vec::new();
         for (&joint, &curves) in &self.joints {
             let share = 1.0 / curves as f64;
@@ -100,6 +108,7 @@ impl StageLimits {
                 values.push(clearances.squared_distance(&posture, clearance));
             }
         }
+        values.extend(loads.values(coordinates, (x, &u), h, self.load_parts));
         values
     }
 }

@@ -34,7 +34,7 @@ fn spread(len: usize, seed: usize) -> Vec<f64> {
 
 fn check(name: &str, steps: usize, with_stage_limits: bool) {
     let scenario = read(name);
-    let mut stage_limits = StageLimits::default();
+    let mut stage_limits = StageLimits::asked();
     if with_stage_limits {
         let joints = 0..scenario.system().joint_count();
         stage_limits.joints.extend(joints.map(|joint| (joint, 1 + joint % 3)));

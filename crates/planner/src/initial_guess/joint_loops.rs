@@ -214,7 +214,7 @@ mod tests {
         changed.initial.joint_angles_deg = vec![20.0, 30.0, -20.0, 10.0];
         let scenario = Scenario::from_file(changed, &file).unwrap();
         let FormulatedManeuver { coordinates, initial, .. } =
-            FormulatedManeuver::in_form(&scenario, Formulation::Reduced, &StageLimits::default());
+            FormulatedManeuver::in_form(&scenario, Formulation::Reduced, &StageLimits::asked());
         check(&InitialGuesses {
             scenario: &scenario,
             coordinates: &coordinates,

@@ -11,6 +11,8 @@ use crate::formulation::StageLimits;
 const ROUNDS: usize = 4;
 /// Parts of a step between which a clearance is stated, at most.
 const MOST_PARTS: usize = 24;
+/// Parts of a step at whose ends loads are stated, at most.
+const MOST_LOAD_PARTS: usize = 8;
 /// How many coarse solutions are tried in place of one in which things go through each other.
 const MOST_CANDIDATES: usize = 4;
 /// Iterations after which a solve that goes on from a solution is given up.
@@ -50,7 +52,7 @@ impl Search<'_> {
             }
             passed = self.passed_limits(&solution);
         }
-        if !self.stage_limits.is_empty() {
+        if !self.stage_limits.is_as_asked() {
             let stated = self.stated_within_steps();
             self.notes.push(match passed.is_empty() {
                 true => format!(
@@ -76,7 +78,8 @@ impl Search<'_> {
         let OcpSolution { states, controls, .. } = solution;
         let Model { coordinates, .. } = model;
         let step_s = grid.step_s();
-        passed_limits(joint_limits, &self.clearances, coordinates, states, controls, step_s)
+        let kept = (&self.clearances, &self.loads);
+        passed_limits(joint_limits, kept, coordinates, states, controls, step_s)
     }
 
     /// Adds limits; false if that changes nothing. Whoever is passed again is stated at more places.
@@ -96,6 +99,9 @@ impl Search<'_> {
         for (&place, passed) in &passed.clearances {
             let stated = limits.clearances.entry(place).or_insert(1);
             *stated = passed.parts.max(2 * *stated).min(MOST_PARTS);
+        }
+        if passed.has_load {
+            limits.load_parts = (2 * limits.load_parts).min(MOST_LOAD_PARTS);
         }
         *limits != before
     }
@@ -201,7 +207,12 @@ impl Search<'_> {
             let places = if parts == 2 { "place" } else { "places" };
             format!("the clearance of {between} (at {} {places} in every step)", parts - 1)
         });
-        let stated: Vec<String> = joints.chain(distances).collect();
+        let places = limits.load_parts - 1;
+        let loads = (places > 0).then(|| {
+            let ends = if places == 1 { "a place" } else { "places" };
+            format!("loads (at {ends} between the ends of every step)")
+        });
+        let stated: Vec<String> = joints.chain(distances).chain(loads).collect();
         stated.join(", ")
     }
 }

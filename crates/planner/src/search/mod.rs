@@ -36,7 +36,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::{Clearances, Coordinates, StageLimits};
+use crate::formulation::{Clearances, Coordinates, Loads, StageLimits};
 use batch::Batch;
 use grids::Ranking;
 use model::Model;
@@ -55,6 +55,8 @@ pub(crate) struct Search<'a> {
     stage_limits: StageLimits,
     /// The distances that the joints decide.
     clearances: Clearances,
+    /// What joints, mount and base bear.
+    loads: Loads,
     /// The asked grid.
     grid: Grid,
     /// What guesses are ranked on.
@@ -105,7 +107,7 @@ impl<'a> Search<'a> {
         on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
-        let stage_limits = StageLimits::default();
+        let stage_limits = StageLimits::asked();
         let ranking = Ranking::of(scenario);
         let substeps = accuracy::substeps_of_spin(scenario);
         let ranks = portfolio::is_ranked(scenario) || earlier.is_some();
@@ -119,6 +121,7 @@ impl<'a> Search<'a> {
             ranking_model,
             stage_limits,
             clearances: Clearances::new(scenario),
+            loads: Loads::new(scenario),
             ranking,
             ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,

@@ -14,6 +14,15 @@ pub struct BaseAcceleration {
     pub linear: Vector3<f64>,
 }
 
+/// What the base does to all that lies beyond the mount, in inertial axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MountLoad {
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// Moment about the mount, N m.
+    pub moment: Vector3<f64>,
+}
+
 impl Model {
     /// The acceleration of the free-floating base in the state `state` while its joints accelerate
     /// by `u` (j, rad/s²); NaN if the system has no motion. Leaves in `motion` the motion of an
@@ -68,7 +77,8 @@ impl Model {
     }
 
     /// Writes the torques (N m) of the joints' motors into `torques` (j): of the free-floating system
-    /// in the state `state` while its joints accelerate by `u` (j, rad/s²).
+    /// in the state `state` while its joints accelerate by `u` (j, rad/s²). Returns what the base does to
+    /// the arm at the mount.
     ///
     /// # Panics
     /// A slice does not have one value a joint, or `motion` is another model's.
@@ -78,7 +88,7 @@ impl Model {
         u: &[f64],
         motion: &mut Motion,
         torques: &mut [f64],
-    ) {
+    ) -> MountLoad {
         assert_eq!(torques.len(), self.joint_count());
         let base = self.base_acceleration(state, u, motion);
         motion.set(self, state, &base, u);
@@ -95,5 +105,12 @@ impl Model {
             let (point, axis) = motion.joint_axis(self.convention, joint);
             *torque = axis.dot(&(moment - (point - state.position).cross(&force)));
         }
+        // What is fixed to the mount itself.
+        for (_, body) in outward.filter(|(body, _)| matches!(body.carrier, Carrier::Frame(_))) {
+            force += body.force;
+            moment += (body.center - state.position).cross(&body.force) + body.moment;
+        }
+        let mount = motion.frames()[0].origin - state.position;
+        MountLoad { force, moment: moment - mount.cross(&force) }
     }
 }

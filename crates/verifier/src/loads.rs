@@ -1,0 +1,126 @@
+//! Loads and the base's rate against their limits, at the nodes and between them: torques of the joints'
+//! motors, force and moment at the mount.
+//!
+//! The motion between two nodes is integrated from the first of them. A step's torques jump where it
+//! begins, so both its ends are looked at with its own accelerations.
+
+use righting_results::trajectory::Trajectory;
+use righting_scenario::file;
+
+use crate::dormand_prince::DormandPrince;
+use crate::ledger::{Ledger, Subject, Worst};
+use crate::model::{Motion, State};
+use crate::requirements::Requirements;
+use crate::simulation::Simulation;
+
+/// Equal parts of a step at whose ends loads are looked at.
+const PARTS: usize = 5;
+/// How much of its limit a load may be past it.
+const SHARE: f64 = 0.01;
+
+/// The limits of a system, where it has any.
+#[derive(Clone, Debug)]
+pub(super) struct LoadLimits {
+    /// One a joint, N m.
+    torques_n_m: Vec<Option<f64>>,
+    mount_force_n: Option<f64>,
+    mount_moment_n_m: Option<f64>,
+    base_rate_rad_s: Option<f64>,
+}
+
+impl LoadLimits {
+    pub fn new(system: &file::System) -> Self {
+        Self {
+            torques_n_m: system.links.iter().map(|link| link.torque_max_n_m).collect(),
+            mount_force_n: system.mount.force_max_n,
+            mount_moment_n_m: system.mount.moment_max_n_m,
+            base_rate_rad_s: system.base.angular_rate_max_deg_s.map(f64::to_radians),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        let Self { torques_n_m, mount_force_n, mount_moment_n_m, base_rate_rad_s } = self;
+        let others = [mount_force_n, mount_moment_n_m, base_rate_rad_s];
+        torques_n_m.iter().chain(others).all(Option::is_none)
+    }
+}
+
+/// The worst place of each limit.
+struct Loads {
+    /// One a joint.
+    torques: Vec<Option<Worst>>,
+    mount_force: Option<Worst>,
+    mount_moment: Option<Worst>,
+    base_rate: Option<Worst>,
+}
+
+impl Loads {
+    fn new(limits: &LoadLimits) -> Self {
+        let worst = |name, unit, limit: Option<f64>| {
+            limit.map(|limit| Worst::new(name, unit, SHARE * limit))
+        };
+        let torques = limits.torques_n_m.iter();
+        Self {
+            torques: torques.map(|&limit| worst("joint torque", "N m", limit)).collect(),
+            mount_force: worst("force at the mount", "N", limits.mount_force_n),
+            mount_moment: worst("moment at the mount", "N m", limits.mount_moment_n_m),
+            base_rate: worst("angular rate of the base", "rad/s", limits.base_rate_rad_s),
+        }
+    }
+}
+
+pub(super) fn check(
+    asked: &Requirements,
+    trajectory: &Trajectory,
+    simulation: &Simulation,
+    ledger: &mut Ledger,
+) {
+    let limits = &asked.load_limits;
+    if limits.is_empty() {
+        return;
+    }
+    let model = &asked.model;
+    let mut worst = Loads::new(limits);
+    let mut motion = Motion::new(model);
+    let mut torques = vec![0.0; model.joint_count()];
+    let mut integrator = DormandPrince::new(asked.start.len());
+    for (k, (interval, node)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate() {
+        let control = &interval.joint_accelerations_rad_s2;
+        let start_s = asked.horizon.time_s(k);
+        let part_s = (asked.horizon.time_s(k + 1) - start_s) / PARTS as f64;
+        let mut x = node.to_vec();
+        for part in 0..=PARTS {
+            if part > 0 {
+                let followed = integrator.advance(&mut x, part_s, |x, rate| {
+                    model.state_derivative(x, control, &mut motion, rate);
+                });
+                if !followed {
+                    x.fill(f64::NAN);
+                }
+            }
+            let state = State::from_slice(&x);
+            let mount = model.joint_torques(&state, control, &mut motion, &mut torques);
+            let time_s = Some(start_s + part as f64 * part_s);
+            let of_joints = worst.torques.iter_mut().zip(&limits.torques_n_m).zip(&torques);
+            for (joint, ((worst, limit), torque)) in of_joints.enumerate() {
+                if let (Some(worst), Some(limit)) = (worst, limit) {
+                    worst.at_most(torque.abs(), *limit, Some(Subject::Joint(joint)), time_s);
+                }
+            }
+            let others = [
+                (&mut worst.mount_force, limits.mount_force_n, mount.force.norm()),
+                (&mut worst.mount_moment, limits.mount_moment_n_m, mount.moment.norm()),
+                (&mut worst.base_rate, limits.base_rate_rad_s, state.angular_rate.norm()),
+            ];
+            for (worst, limit, value) in others {
+                if let (Some(worst), Some(limit)) = (worst, limit) {
+                    worst.at_most(value, limit, None, time_s);
+                }
+            }
+        }
+    }
+    let Loads { torques, mount_force, mount_moment, base_rate } = worst;
+    for worst in torques.into_iter().chain([mount_force, mount_moment, base_rate]).flatten() {
+        ledger.add(worst);
+    }
+}
