@@ -38,7 +38,7 @@ fn solve(name: &str) -> Value {
     let solution = run.json();
     assert_eq!(solution["status"], "solved", "{name}");
     assert_eq!(solution["verification"]["passed"], true, "{name}");
-    assert_eq!(solution["scenario"]["name"], name);
+    assert_eq!(solution["scenario"]["name"], scenario.file_stem().unwrap().to_str().unwrap());
     solution
 }
 
@@ -63,6 +63,19 @@ fn check(name: &str) {
             assert!(number(&solution["bound_deg_s"]) > 0.0, "{form}");
         }
     }
+}
+
+/// Maneuvers with the limits that real arms and missions have.
+#[test]
+fn every_real_maneuver_is_planned_and_verified() {
+    let folder = root().join("scenarios/real");
+    let mut planned = 0;
+    for entry in folder.read_dir().unwrap() {
+        let file = entry.unwrap().path();
+        solve(&format!("real/{}", file.file_stem().unwrap().to_str().unwrap()));
+        planned += 1;
+    }
+    assert!(planned >= 2, "{planned}");
 }
 
 #[test]

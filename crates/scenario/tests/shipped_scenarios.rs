@@ -39,6 +39,10 @@ fn every_scenario_and_system_is_valid_and_named_after_its_file() {
             .flat_map(move |kind| [format!("{kind}_{system}"), format!("{kind}_{system}_full")])
     });
     assert_eq!(names, expected.chain(["slew75_4dof".to_owned()]).collect());
+    for file in json_files(&scenarios().join("real")) {
+        let scenario = Scenario::read(&file).unwrap();
+        assert_eq!(scenario.name(), file.file_stem().unwrap().to_str().unwrap());
+    }
     for file in json_files(&scenarios().join("systems")) {
         let system = SystemDescription::read(&file).unwrap();
         assert_eq!(system.name, file.file_stem().unwrap().to_str().unwrap());
