@@ -2,6 +2,7 @@
 
 use super::lanes::copy_short;
 use super::pattern::{BlockEntry, NodePattern, Position};
+use super::structure::Coupling;
 
 /// Consecutive triplets that are consecutive in the node's storage too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,18 +26,19 @@ pub(super) struct CopyPlan {
 /// first of each run, then one for each repeated value.
 #[derive(Debug)]
 pub(super) struct Gather {
-    /// Entry of each of the node's triplets, in triplet order.
-    entries: Vec<BlockEntry>,
+    /// What each of the node's triplets couples, in triplet order.
+    couplings: Vec<Coupling>,
     pub pattern: usize,
     pub assembly: CopyPlan,
     pub jacobian: CopyPlan,
 }
 
 impl Gather {
-    /// The plan for a node with these entries; `triplets` are their indices, `sorted` their order
-    /// by entry.
+    /// The plan for a node with these couplings and entries; `triplets` are their indices, `sorted` their
+    /// order by entry.
     pub fn new(
-        entries: Vec<BlockEntry>,
+        couplings: Vec<Coupling>,
+        entries: &[BlockEntry],
         triplets: &[u32],
         sorted: &[u32],
         pattern: &NodePattern,
@@ -53,18 +55,18 @@ impl Gather {
             plan.push(position as u32, number, previous == Some(entry), triplets);
             previous = Some(entry);
         }
-        Self { entries, pattern: pattern_index, assembly, jacobian }
+        Self { couplings, pattern: pattern_index, assembly, jacobian }
     }
 
     /// Appends the sources of a node, if its triplets come in this plan's order.
     pub fn try_sources(
         &self,
-        entries: &[BlockEntry],
+        couplings: &[Coupling],
         triplets: &[u32],
         sources: &mut Vec<u32>,
     ) -> bool {
         let start = sources.len();
-        let fits = self.entries == entries
+        let fits = self.couplings == couplings
             && self.assembly.try_sources(triplets, sources)
             && self.jacobian.try_sources(triplets, sources);
         if !fits {

@@ -94,7 +94,7 @@ impl Structure {
             return Err(KktStructureError::TripletLengths { rows, columns });
         }
         let shapes = node_shapes(layout)?;
-        let by_node = TripletsByNode::new(layout, &shapes, rows, columns)?;
+        let by_node = TripletsByNode::new(layout, shapes.len(), rows, columns)?;
         let mut structure = Self {
             patterns: Vec::new(),
             gathers: Vec::new(),
@@ -105,17 +105,18 @@ impl Structure {
         let mut known: HashMap<(NodeShape, Vec<BlockEntry>), usize> = HashMap::new();
         let mut last = 0;
         for (k, &shape) in shapes.iter().enumerate() {
-            let (entries, triplets) = by_node.node(k);
+            let (couplings, triplets) = by_node.node(k);
             let start = structure.sources.len();
             let gathers = &structure.gathers;
-            // Mostly it is the previous node's; entries alone do not tell a shape.
+            // Mostly it is the previous node's; couplings alone do not tell a shape.
             let fitting = (last..gathers.len()).chain(0..last).find(|&gather| {
                 structure.patterns[gathers[gather].pattern].shape == shape
-                    && gathers[gather].try_sources(entries, triplets, &mut structure.sources)
+                    && gathers[gather].try_sources(couplings, triplets, &mut structure.sources)
             });
             last = match fitting {
                 Some(gather) => gather,
                 None => {
+                    let entries = entries(&shape, couplings, triplets, rows, columns)?;
                     let mut sorted: Vec<u32> = (0..entries.len() as u32).collect();
                     sorted.sort_by_key(|&number| entries[number as usize]);
                     let ordered = sorted.iter().map(|&number| entries[number as usize]).collect();
@@ -131,13 +132,14 @@ impl Structure {
                         }
                     };
                     let gather = Gather::new(
-                        entries.to_vec(),
+                        couplings.to_vec(),
+                        &entries,
                         triplets,
                         &sorted,
                         &structure.patterns[pattern],
                         pattern,
                     );
-                    gather.try_sources(entries, triplets, &mut structure.sources);
+                    gather.try_sources(couplings, triplets, &mut structure.sources);
                     structure.gathers.push(gather);
                     structure.gathers.len() - 1
                 }
@@ -156,51 +158,127 @@ impl Structure {
     }
 }
 
-/// Places and indices of the triplets, node after node, in triplet order within a node.
+/// Between which two unknowns a triplet is: the role of its row and that of its column within their nodes, and
+/// how far apart those are, in one number. Nodes of the same shape with the same couplings have the same entries.
+pub(super) type Coupling = u64;
+
+/// Of an unknown: its node, and its role as a number.
+type Unknown = (u32, u32);
+
+/// Values of a role that a number holds: nodes are smaller (`node_shapes`).
+const INDEX_BITS: u32 = 16;
+/// The same for a role.
+const ROLE_BITS: u32 = 20;
+
+/// How far the nodes of a coupling are apart.
+const SAME_NODE: u64 = 0;
+const ROW_NEXT: u64 = 1;
+const COLUMN_NEXT: u64 = 2;
+/// Farther than any entry of the structure.
+const BEYOND: u64 = 3;
+
+fn role_number(role: Role) -> u32 {
+    let (Role::Variable(index)
+    | Role::Slack(index)
+    | Role::Equality(index)
+    | Role::Defect(index)
+    | Role::Inequality(index)) = role;
+    u32::from(rank(role)) << INDEX_BITS | index
+}
+
+fn role_of(number: u32) -> Role {
+    let index = number & ((1 << INDEX_BITS) - 1);
+    match number >> INDEX_BITS {
+        0 => Role::Variable(index),
+        1 => Role::Slack(index),
+        2 => Role::Equality(index),
+        3 => Role::Defect(index),
+        _ => Role::Inequality(index),
+    }
+}
+
+#[inline(always)]
+fn coupling_of((node, row): Unknown, (other, column): Unknown) -> Coupling {
+    let reach = match (node.wrapping_sub(other), other.wrapping_sub(node)) {
+        (0, _) => SAME_NODE,
+        (1, _) => ROW_NEXT,
+        (_, 1) => COLUMN_NEXT,
+        _ => BEYOND,
+    };
+    reach << (2 * ROLE_BITS) | u64::from(row) << ROLE_BITS | u64::from(column)
+}
+
+/// Where a coupling is in its node, the earlier of the two; nothing when the structure has no such entry.
+fn entry_of(coupling: Coupling, shape: &NodeShape) -> Option<BlockEntry> {
+    let role = |shift: u32| role_of((coupling >> shift) as u32 & ((1 << ROLE_BITS) - 1));
+    let (row, column) = (role(ROLE_BITS), role(0));
+    let (row_node, column_node) = match coupling >> (2 * ROLE_BITS) {
+        SAME_NODE => (0, 0),
+        ROW_NEXT => (1, 0),
+        COLUMN_NEXT => (0, 1),
+        _ => return None,
+    };
+    locate(shape, (row_node, row), (column_node, column))
+}
+
+/// Where a node's triplets are in it.
+fn entries(
+    shape: &NodeShape,
+    couplings: &[Coupling],
+    triplets: &[u32],
+    rows: &[i32],
+    columns: &[i32],
+) -> Result<Vec<BlockEntry>, KktStructureError> {
+    let entry = |(&coupling, &triplet): (&Coupling, &u32)| {
+        let (row, column) = (rows[triplet as usize], columns[triplet as usize]);
+        entry_of(coupling, shape).ok_or(KktStructureError::ForeignEntry { row, column })
+    };
+    couplings.iter().zip(triplets).map(entry).collect()
+}
+
+/// Couplings and indices of the triplets, node after node, in triplet order within a node.
 struct TripletsByNode {
     starts: Vec<usize>,
-    entries: Vec<BlockEntry>,
+    couplings: Vec<Coupling>,
     triplets: Vec<u32>,
 }
 
 impl TripletsByNode {
     fn new(
         layout: &SystemLayout,
-        shapes: &[NodeShape],
+        nodes: usize,
         rows: &[i32],
         columns: &[i32],
     ) -> Result<Self, KktStructureError> {
-        let roles = layout.roles();
-        let role_at = |index: i32| usize::try_from(index).ok().and_then(|i| roles.get(i).copied());
-        let mut starts = vec![0_usize; shapes.len() + 1];
+        let unknowns: Vec<Unknown> =
+            layout.roles().into_iter().map(|(node, role)| (node, role_number(role))).collect();
+        let unknown = |index: i32| unknowns.get(usize::try_from(index).ok()?).copied();
+        let mut starts = vec![0_usize; nodes + 1];
         for (&row, &column) in rows.iter().zip(columns) {
-            let (Some(a), Some(b)) = (role_at(row), role_at(column)) else {
+            let (Some(a), Some(b)) = (unknown(row), unknown(column)) else {
                 return Err(KktStructureError::ForeignEntry { row, column });
             };
             starts[a.0.min(b.0) as usize + 1] += 1;
         }
-        for k in 0..shapes.len() {
+        for k in 0..nodes {
             starts[k + 1] += starts[k];
         }
         let mut next = starts.clone();
-        let mut entries = vec![BlockEntry::new(NodeBlock::Leading, 0, 0); rows.len()];
+        let mut couplings = vec![0; rows.len()];
         let mut triplets = vec![0; rows.len()];
         for ((&row, &column), number) in rows.iter().zip(columns).zip(0..) {
-            let (a, b) = (roles[row as usize], roles[column as usize]);
-            let Some(entry) = locate(shapes, a, b) else {
-                return Err(KktStructureError::ForeignEntry { row, column });
-            };
+            let (a, b) = (unknowns[row as usize], unknowns[column as usize]);
             let position = &mut next[a.0.min(b.0) as usize];
-            entries[*position] = entry;
+            couplings[*position] = coupling_of(a, b);
             triplets[*position] = number;
             *position += 1;
         }
-        Ok(Self { starts, entries, triplets })
+        Ok(Self { starts, couplings, triplets })
     }
 
-    fn node(&self, k: usize) -> (&[BlockEntry], &[u32]) {
+    fn node(&self, k: usize) -> (&[Coupling], &[u32]) {
         let range = self.starts[k]..self.starts[k + 1];
-        (&self.entries[range.clone()], &self.triplets[range])
+        (&self.couplings[range.clone()], &self.triplets[range])
     }
 }
 
@@ -232,17 +310,15 @@ fn node_shapes(layout: &SystemLayout) -> Result<Vec<NodeShape>, KktStructureErro
     shapes.collect()
 }
 
-/// The entry between two unknowns, or nothing when the structure has none. It belongs to
-/// the earlier of their nodes.
-#[inline(always)]
-fn locate(shapes: &[NodeShape], a: (u32, Role), b: (u32, Role)) -> Option<BlockEntry> {
+/// The entry between two unknowns of a node and the next, or nothing when the structure has none. Nodes count
+/// from the earlier one, whose shape it is.
+fn locate(shape: &NodeShape, a: (u32, Role), b: (u32, Role)) -> Option<BlockEntry> {
     use Role::{Defect, Equality, Inequality, Slack, Variable};
     let ((node, first), (other, second)) = if rank(a.1) <= rank(b.1) { (a, b) } else { (b, a) };
-    let shape = &shapes[node as usize];
     if let (Variable(i), Defect(row)) = (first, second)
         && node == other + 1
     {
-        let determined = i == row && (i as usize) < shape.states;
+        let determined = i == row && (i as usize) < shape.defects;
         return determined.then_some(BlockEntry::new(NodeBlock::DefectCoupling, row as usize, 0));
     }
     if node != other {
