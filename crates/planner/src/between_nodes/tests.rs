@@ -6,7 +6,7 @@ use righting_test_support::thin_links::pendulum;
 use righting_test_support::varied;
 
 use super::{PassedLimits, passed_limits};
-use crate::formulation::{Clearances, Coordinates};
+use crate::formulation::{Clearances, Coordinates, Loads};
 
 /// What a motion of the joints from the scenario's start passes, one second a step.
 fn passed(scenario: &Scenario, accelerations: &[Vec<f64>]) -> PassedLimits {
@@ -26,8 +26,9 @@ fn passed(scenario: &Scenario, accelerations: &[Vec<f64>]) -> PassedLimits {
         states.push(&state(&angles, &rates));
         controls.push(u);
     }
-    let (joint_limits, clearances) = (&scenario.system().joint_limits, Clearances::new(scenario));
-    passed_limits(joint_limits, &clearances, &coordinates, &states, &controls, 1.0)
+    let kept = (&Clearances::new(scenario), &Loads::new(scenario));
+    let joint_limits = &scenario.system().joint_limits;
+    passed_limits(joint_limits, kept, &coordinates, &states, &controls, 1.0)
 }
 
 /// From 60° on the one side to 60° on the other, at constant rate in the middle of three steps.
