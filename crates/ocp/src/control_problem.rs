@@ -13,7 +13,7 @@ type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
 ///
 /// ```text
 /// min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)
-/// s.t. ẋ = f(x, u),  x(0) given,  u constant over each step
+/// s.t. ẋ = f(x, u),  x(0) given but for its free entries,  u constant over each step
 ///      x_lower ≤ x_k ≤ x_upper,  c_lower ≤ c(x_k) ≤ c_upper     (k = 1…N)
 ///      u_lower ≤ u_k ≤ u_upper,  s_lower ≤ s(x_k, u_k, Δt) ≤ s_upper   (k = 0…N−1)
 ///      e_lower ≤ e(x_N) ≤ e_upper
@@ -35,6 +35,7 @@ pub struct ControlProblem {
     pub(crate) state_bounds: ComponentBounds,
     pub(crate) control_bounds: ComponentBounds,
     pub(crate) keeps_passive_states: bool,
+    pub(crate) free_initial_states: Vec<usize>,
 }
 
 impl ControlProblem {
@@ -60,6 +61,7 @@ impl ControlProblem {
             state_bounds: ComponentBounds::unbounded(states),
             control_bounds: ComponentBounds::unbounded(controls),
             keeps_passive_states: false,
+            free_initial_states: Vec::new(),
         }
     }
 
@@ -92,7 +94,7 @@ impl ControlProblem {
     /// constraints: what happens within a step follows from the state it starts from, the control that
     /// is held over it and its length Δt, which the callable receives as an expression.
     ///
-    /// A component that no control enters is not bounded in the first step, whose state is given.
+    /// A component that no control and no free initial state enters is not bounded in the first step.
     pub fn stage_constraints(
         mut self,
         bounds: ComponentBounds,
@@ -134,9 +136,20 @@ impl ControlProblem {
         self
     }
 
+    /// Leaves these states' initial values, counted from zero, to the optimizer, within the bounds of the
+    /// states. A parameter of the whole problem, such as a duration, is a state whose rate is zero.
+    pub fn free_initial_states(mut self, states: &[usize]) -> Self {
+        self.free_initial_states = states.to_vec();
+        self
+    }
+
     pub(crate) fn check(&self) -> Result<(), OcpError> {
         if self.states == 0 {
             return Err(OcpError::NoStates);
+        }
+        if let Some(&state) = self.free_initial_states.iter().find(|&&state| state >= self.states) {
+            let (what, expected) = ("states up to a free one", self.states);
+            return Err(OcpError::Dimension { what, expected, found: state + 1 });
         }
         self.state_bounds.check("state bounds", self.states)?;
         self.control_bounds.check("control bounds", self.controls)?;

@@ -5,6 +5,8 @@ use std::ops::Range;
 pub struct ShootingDimensions {
     /// States per node, passive ones left out.
     pub states: usize,
+    /// Those of them whose initial values are free.
+    pub free: usize,
     /// Controls per step.
     pub controls: usize,
     /// Path constraints per node after the first.
@@ -21,7 +23,7 @@ pub struct ShootingDimensions {
 /// index arithmetic on them.
 ///
 /// ```text
-/// z = [u_0, x_1, u_1, x_2, …, u_{N−1}, x_N]                  (x_0 is data)
+/// z = [free entries of x_0, u_0, x_1, u_1, x_2, …, u_{N−1}, x_N]      (the rest of x_0 is data)
 /// g = [s_0, defect_0, c(x_1), s_1, defect_1, c(x_2), …, c(x_N), e(x_N)]
 /// ```
 ///
@@ -44,7 +46,12 @@ impl DecisionLayout {
 
     /// Length of the decision vector.
     pub fn variables(&self) -> usize {
-        self.dimensions.steps * self.node_stride()
+        self.dimensions.free + self.dimensions.steps * self.node_stride()
+    }
+
+    /// Where the free entries of x_0 are.
+    pub fn free(&self) -> Range<usize> {
+        0..self.dimensions.free
     }
 
     /// Length of the constraint vector.
@@ -54,13 +61,13 @@ impl DecisionLayout {
 
     /// Where u_k is, k = 0…N−1.
     pub fn control(&self, step: usize) -> Range<usize> {
-        let start = step * self.node_stride();
+        let start = self.dimensions.free + step * self.node_stride();
         start..start + self.dimensions.controls
     }
 
     /// Where x_k is, k = 1…N.
     pub fn state(&self, node: usize) -> Range<usize> {
-        let end = node * self.node_stride();
+        let end = self.dimensions.free + node * self.node_stride();
         end - self.dimensions.states..end
     }
 
@@ -103,11 +110,19 @@ mod tests {
 
     #[test]
     fn the_parts_tile_both_vectors() {
-        let dimensions =
-            ShootingDimensions { states: 5, controls: 2, path: 3, stage: 2, terminal: 4, steps: 7 };
+        let dimensions = ShootingDimensions {
+            states: 5,
+            free: 2,
+            controls: 2,
+            path: 3,
+            stage: 2,
+            terminal: 4,
+            steps: 7,
+        };
         let layout = DecisionLayout::new(dimensions);
         let mut variables = vec![0; layout.variables()];
         let mut rows = vec![0; layout.constraints()];
+        layout.free().for_each(|i| variables[i] += 1);
         for k in 0..dimensions.steps {
             layout.control(k).chain(layout.state(k + 1)).for_each(|i| variables[i] += 1);
             let parts = layout.stage(k).chain(layout.defect(k)).chain(layout.path(k + 1));

@@ -34,6 +34,7 @@ impl<'a> Rows<'a> {
 impl MultipleShooting<'_> {
     /// Evaluates ∂F/∂(x, u) of all steps at `z` into `values` (if any) and fills the store.
     fn evaluate_steps(&mut self, z: &[f64], mut values: Option<&mut [f64]>) {
+        self.start_from(z);
         let Self { functions, layout, initial, jacobian, evaluator, store, grid, .. } = self;
         let rows = Rows { layout: *layout, initial, vector: z };
         let blocks = Block::cover(grid.steps());
@@ -111,6 +112,10 @@ impl Problem for MultipleShooting<'_> {
 
     fn bounds(&self, bounds: &mut Bounds) {
         let functions = self.functions;
+        for (index, &state) in self.layout.free().zip(&functions.free) {
+            bounds.x_lower[index] = functions.state_bounds.lower[state];
+            bounds.x_upper[index] = functions.state_bounds.upper[state];
+        }
         for k in 0..self.steps() {
             let (control, state) = (self.layout.control(k), self.layout.state(k + 1));
             let (defect, path) = (self.layout.defect(k), self.layout.path(k + 1));
@@ -141,6 +146,7 @@ impl Problem for MultipleShooting<'_> {
 
     fn objective(&mut self, z: &[f64], _new_x: bool) -> Result<f64, EvaluationError> {
         let steps = self.steps();
+        self.start_from(z);
         let rows = Rows { layout: self.layout, initial: &self.initial, vector: z };
         let function = &self.functions.running.value;
         let workspace = &mut self.evaluator.running.value;
@@ -166,6 +172,7 @@ impl Problem for MultipleShooting<'_> {
     ) -> Result<(), EvaluationError> {
         let (steps, states) = (self.steps(), self.functions.states);
         let layout = self.layout;
+        self.start_from(z);
         let rows = Rows { layout, initial: &self.initial, vector: z };
         gradient.fill(0.0);
         let running = &self.functions.running;
@@ -178,11 +185,12 @@ impl Problem for MultipleShooting<'_> {
             for (lane, step) in block.items() {
                 for (_, column, value) in running.jacobian.at_lane(computed, lane) {
                     let variable = match column < states {
-                        true if step == 0 => continue,
-                        true => layout.state(step).start + column,
-                        false => layout.control(step).start + column - states,
+                        true => self.functions.state_variable(&layout, step, column),
+                        false => Some(layout.control(step).start + column - states),
                     };
-                    gradient[variable] += self.grid.running_weight() * value;
+                    if let Some(variable) = variable {
+                        gradient[variable] += self.grid.running_weight() * value;
+                    }
                 }
             }
         }
@@ -203,6 +211,7 @@ impl Problem for MultipleShooting<'_> {
         g: &mut [f64],
     ) -> Result<(), EvaluationError> {
         let (steps, functions, layout) = (self.steps(), self.functions, self.layout);
+        self.start_from(z);
         let rows = Rows { layout, initial: &self.initial, vector: z };
         let path = &mut self.evaluator.path.value;
         for block in Block::cover(steps) {
@@ -307,6 +316,7 @@ impl Problem for MultipleShooting<'_> {
             self.evaluate_steps(z, None);
         }
         values.fill(0.0);
+        self.start_from(z);
         let Self { functions, layout, initial, hessian, evaluator, store, grid, .. } = self;
         let steps = grid.steps();
         let rows = Rows { layout: *layout, initial, vector: z };

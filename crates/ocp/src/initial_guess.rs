@@ -5,7 +5,7 @@ use crate::samples::Samples;
 /// A trajectory to start from.
 #[derive(Debug, Clone)]
 pub struct InitialGuess {
-    /// All states of the problem at the nodes 0…N; the first row is not used.
+    /// All states of the problem at the nodes 0…N; of the first row only what is free is used.
     pub states: Samples,
     /// The controls of the steps 0…N−1.
     pub controls: Samples,
@@ -42,6 +42,9 @@ impl MultipleShooting<'_> {
         }
         let layout = self.layout();
         let mut z = vec![0.0; layout.variables()];
+        for (target, &place) in z.iter_mut().zip(&functions.free) {
+            *target = guess.states.row(0)[functions.active[place]];
+        }
         for step in 0..steps {
             if functions.controls > 0 {
                 z[layout.control(step)].copy_from_slice(guess.controls.row(step));

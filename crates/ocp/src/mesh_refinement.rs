@@ -136,7 +136,7 @@ impl MeshRefinement<'_> {
     ) -> Result<OcpSolution, OcpError> {
         let grid = self.grid.with_steps(steps)?;
         let mut program = MultipleShooting::new(functions, grid, self.initial)?;
-        let point = point.resampled(program.initial_state(), steps);
+        let point = point.resampled(&program.initial_state(&point.z), steps);
         let mut solution =
             program.solve(&OcpStart::Warm(point.clone()), warm, &mut *on_iteration)?;
         if solution.status.is_success() || solution.status == Status::UserStop {

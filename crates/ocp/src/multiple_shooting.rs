@@ -14,7 +14,7 @@ pub struct MultipleShooting<'f> {
     pub(crate) functions: &'f StageFunctions,
     pub(crate) grid: Grid,
     pub(crate) layout: DecisionLayout,
-    /// x_0, passive states left out.
+    /// x_0, passive states left out; its free entries are those of the last point.
     pub(crate) initial: Vec<f64>,
     pub(crate) full_initial: Vec<f64>,
     pub(crate) jacobian: JacobianStructure,
@@ -50,6 +50,7 @@ impl<'f> MultipleShooting<'f> {
         }
         let dimensions = ShootingDimensions {
             states: functions.states,
+            free: functions.free.len(),
             controls: functions.controls,
             path: functions.path_bounds.len(),
             stage: functions.stage_bounds.len(),
@@ -86,9 +87,16 @@ impl<'f> MultipleShooting<'f> {
         self.functions
     }
 
-    /// x_0 without the passive states.
-    pub fn initial_state(&self) -> &[f64] {
-        &self.initial
+    /// x_0 without the passive states, with the free entries of a decision vector.
+    pub fn initial_state(&self, z: &[f64]) -> Vec<f64> {
+        let mut initial = self.initial.clone();
+        copy_free(self.functions, z, &mut initial);
+        initial
+    }
+
+    /// Takes the free entries of x_0 from a decision vector.
+    pub(crate) fn start_from(&mut self, z: &[f64]) {
+        copy_free(self.functions, z, &mut self.initial);
     }
 
     /// x_0 with every state of the problem.
@@ -98,5 +106,11 @@ impl<'f> MultipleShooting<'f> {
 
     pub(crate) fn steps(&self) -> usize {
         self.grid.steps()
+    }
+}
+
+fn copy_free(functions: &StageFunctions, z: &[f64], initial: &mut [f64]) {
+    for (&place, &value) in functions.free.iter().zip(z) {
+        initial[place] = value;
     }
 }

@@ -41,6 +41,11 @@ impl PrimalDualPoint {
             lower: vec![0.0; layout.variables()],
             upper: vec![0.0; layout.variables()],
         };
+        for index in layout.free() {
+            point.z[index] = self.z[index];
+            point.lower[index] = self.lower[index];
+            point.upper[index] = self.upper[index];
+        }
         for step in 0..steps {
             let middle = LinearInterpolation::new((step as f64 + 0.5) * ratio - 0.5, coarse - 1);
             for (index, target) in layout.control(step).enumerate() {
@@ -85,6 +90,7 @@ mod tests {
     fn parabola(steps: usize) -> PrimalDualPoint {
         let layout = DecisionLayout::new(ShootingDimensions {
             states: 1,
+            free: 0,
             controls: 1,
             path: 1,
             stage: 1,

@@ -211,7 +211,7 @@ impl MultipleShooting<'_> {
         };
         let mut nodes = vec![inner; dimensions.steps + 1];
         nodes[0] = NodeDims {
-            states: 0,
+            states: dimensions.free,
             controls: dimensions.controls,
             equalities: first_stage,
             inequalities: dimensions.stage - first_stage,

@@ -19,6 +19,8 @@ pub struct StageFunctions {
     /// The states that cost, constraints or other such states depend on, in the problem's order.
     pub(crate) active: Vec<usize>,
     pub(crate) all_states: usize,
+    /// Those of the active states, counted among them, whose initial values are free, in order.
+    pub(crate) free: Vec<usize>,
     /// ẋ of every state; only there when some are passive.
     pub(crate) full_ode: Option<Function>,
     pub(crate) ode: NodeFunction,
@@ -97,6 +99,8 @@ impl StageFunctions {
         };
 
         let (n, m) = (x.len(), u.len());
+        let is_free = |&place: &usize| problem.free_initial_states.contains(&active[place]);
+        let free: Vec<usize> = (0..n).filter(is_free).collect();
         let ode = NodeFunction::compile("ode", &[("x", &x), ("u", &u)], &active_rates)?;
         let on_state = |name, values: &[Expr]| NodeFunction::compile(name, &[("x", &x)], values);
         let variables: [(&str, &[Expr]); 2] = [("x", &x), ("u", &u)];
@@ -117,11 +121,14 @@ impl StageFunctions {
             ),
             control_bounds: problem.control_bounds.clone(),
             path_bounds: problem.path_bounds.clone(),
-            stage_bounds: StageBounds::new(&problem.stage_bounds, &stage, n),
+            stage_bounds: StageBounds::new(&problem.stage_bounds, &stage, |column| {
+                column >= n || free.contains(&column)
+            }),
             stage,
             terminal_bounds: problem.terminal_bounds.clone(),
             ode,
             active,
+            free,
         })
     }
 
@@ -177,15 +184,19 @@ impl StageFunctions {
 /// The bounds of the stage constraints.
 #[derive(Debug, Clone)]
 pub(crate) struct StageBounds {
-    /// In the first step: a component that no control enters has none, since the state is given.
+    /// In the first step: a component that no control and no free initial state enters has none.
     first: ComponentBounds,
     later: ComponentBounds,
 }
 
 impl StageBounds {
-    fn new(bounds: &ComponentBounds, stage: &NodeFunction, states: usize) -> Self {
+    fn new(
+        bounds: &ComponentBounds,
+        stage: &NodeFunction,
+        is_variable: impl Fn(usize) -> bool,
+    ) -> Self {
         let mut first = ComponentBounds::unbounded(bounds.len());
-        for &(row, _) in stage.jacobian.entries.iter().filter(|&&(_, column)| column >= states) {
+        for &(row, _) in stage.jacobian.entries.iter().filter(|&&(_, column)| is_variable(column)) {
             first.lower[row] = bounds.lower[row];
             first.upper[row] = bounds.upper[row];
         }

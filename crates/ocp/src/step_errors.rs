@@ -15,6 +15,7 @@ impl MultipleShooting<'_> {
     /// Of a method of fourth order, and twice as many substeps as it takes itself, that is 15/16 of its own
     /// error (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.4).
     pub fn step_errors(&mut self, point: &PrimalDualPoint, substeps: NonZeroUsize) -> Samples {
+        self.start_from(&point.z);
         let Self { functions, layout, initial, evaluator, grid, .. } = self;
         let (h, z) = (grid.step_s(), &point.z);
         let state = |k: usize| if k == 0 { &initial[..] } else { &z[layout.state(k)] };

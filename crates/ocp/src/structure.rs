@@ -35,7 +35,7 @@ impl Scatter {
 /// end:    [∂e(x_N)/∂x_N]
 /// ```
 ///
-/// The columns of x_k are missing in step 0. Slots count from the start of a whole step.
+/// Of the columns of x_0 only the free ones are there. Slots count from the start of a whole step.
 #[derive(Debug, Clone)]
 pub(crate) struct JacobianStructure {
     /// Entries in columns of x_k.
@@ -50,6 +50,7 @@ pub(crate) struct JacobianStructure {
     pub(crate) terminal: Scatter,
     steps: usize,
     entries: usize,
+    first: FirstSlots,
 }
 
 impl JacobianStructure {
@@ -70,6 +71,9 @@ impl JacobianStructure {
             })
         };
         let path = &functions.path.jacobian;
+        let first = FirstSlots::new(
+            defect_states.iter().chain(&stage_states).map(|&(_, j)| functions.free.contains(&j)),
+        );
         let step_entries = path_start + path.entries.len();
         let terminal = &functions.terminal.jacobian;
         Self {
@@ -86,18 +90,19 @@ impl JacobianStructure {
             }),
             terminal: Scatter::new(terminal, find_in(&terminal.entries)),
             steps,
-            entries: steps * step_entries - state_entries + terminal.entries.len(),
+            entries: steps * step_entries - state_entries + first.kept + terminal.entries.len(),
+            first,
         }
     }
 
     /// Where a slot of a step is; `None` for the part that step 0 does not have.
     pub(crate) fn entry(&self, step: usize, slot: usize) -> Option<usize> {
-        (step * self.step_entries + slot).checked_sub(self.state_entries)
+        self.first.entry(step, self.step_entries, slot)
     }
 
     /// Index of the first entry of e(x_N).
     pub(crate) fn terminal_start(&self) -> usize {
-        self.steps * self.step_entries - self.state_entries
+        self.steps * self.step_entries - self.state_entries + self.first.kept
     }
 
     pub(crate) fn triplets(
@@ -111,11 +116,10 @@ impl JacobianStructure {
         let [stage_states, stage_controls] = by_variable(&functions.stage.jacobian, n);
         for step in 0..self.steps {
             let (row, stage_row) = (layout.defect(step).start, layout.stage(step).start);
-            if step > 0 {
-                let column = layout.state(step).start;
-                for (row, entries) in [(row, &defect_states), (stage_row, &stage_states)] {
-                    for &(i, j) in entries {
-                        triplets.push(row + i, column + j);
+            for (row, entries) in [(row, &defect_states), (stage_row, &stage_states)] {
+                for &(i, j) in entries {
+                    if let Some(column) = functions.state_variable(layout, step, j) {
+                        triplets.push(row + i, column);
                     }
                 }
             }
@@ -143,12 +147,14 @@ impl JacobianStructure {
 }
 
 /// The lower triangle of the Lagrangian Hessian, node by node: `[xx | ux | uu]`. Node 0 has only
-/// the last part, node N only the first. Slots count from the start of a whole node.
+/// the last part and what free states have of the others, node N only the first. Slots count from the
+/// start of a whole node.
 #[derive(Debug, Clone)]
 pub(crate) struct HessianStructure {
     ordered: Vec<(usize, usize)>,
     state_entries: usize,
     first_control_entry: usize,
+    first: FirstSlots,
     steps: usize,
     pub(crate) step: Scatter,
     pub(crate) running: Scatter,
@@ -174,9 +180,15 @@ impl HessianStructure {
         ordered.sort_by_key(|&(row, column)| (row >= n, column >= n, row, column));
         ordered.dedup();
         let scatter = |output: &MatrixOutput| Scatter::new(output, find_in(&ordered));
+        let first_control_entry = ordered.partition_point(|&(_, column)| column < n);
+        let is_variable = |index: usize| index >= n || functions.free.contains(&index);
+        let with_states = ordered[..first_control_entry].iter();
         Self {
             state_entries: ordered.partition_point(|&(row, _)| row < n),
-            first_control_entry: ordered.partition_point(|&(_, column)| column < n),
+            first_control_entry,
+            first: FirstSlots::new(
+                with_states.map(|&(row, column)| is_variable(row) && is_variable(column)),
+            ),
             steps,
             step: scatter(&functions.step.hessian),
             running: scatter(&functions.running.hessian),
@@ -190,13 +202,15 @@ impl HessianStructure {
 
     /// Number of entries.
     pub(crate) fn entries(&self) -> usize {
-        self.steps * self.ordered.len() - self.first_control_entry + self.state_entries
+        self.steps * self.ordered.len() - self.first_control_entry
+            + self.first.kept
+            + self.state_entries
     }
 
     /// Where a slot of a node is; `None` for the parts that node 0 does not have. Node N has the
     /// slots that couple states alone.
     pub(crate) fn entry(&self, node: usize, slot: usize) -> Option<usize> {
-        (node * self.ordered.len() + slot).checked_sub(self.first_control_entry)
+        self.first.entry(node, self.ordered.len(), slot)
     }
 
     pub(crate) fn triplets(
@@ -208,19 +222,67 @@ impl HessianStructure {
         let mut triplets = Triplets::with_capacity(self.entries());
         for node in 0..=self.steps {
             let variable = |index: usize| match index < n {
-                true => layout.state(node).start + index,
-                false => layout.control(node).start + index - n,
+                true => functions.state_variable(layout, node, index),
+                false => Some(layout.control(node).start + index - n),
             };
-            let part = match node {
-                0 => &self.ordered[self.first_control_entry..],
-                node if node == self.steps => &self.ordered[..self.state_entries],
-                _ => &self.ordered[..],
+            let part = match node == self.steps {
+                true => &self.ordered[..self.state_entries],
+                false => &self.ordered[..],
             };
             for &(row, column) in part {
-                triplets.push(variable(row), variable(column));
+                if let (Some(row), Some(column)) = (variable(row), variable(column)) {
+                    triplets.push(row, column);
+                }
             }
         }
         triplets.0
+    }
+}
+
+/// The leading slots of a step or node, those with states, of which step 0 keeps only what is free.
+#[derive(Debug, Clone)]
+struct FirstSlots {
+    /// Of each slot with states, where step 0 has it.
+    places: Vec<Option<usize>>,
+    /// How many step 0 has.
+    kept: usize,
+}
+
+impl FirstSlots {
+    fn new(is_kept: impl Iterator<Item = bool>) -> Self {
+        let mut kept = 0;
+        let places = is_kept
+            .map(|is_kept| {
+                is_kept.then(|| {
+                    kept += 1;
+                    kept - 1
+                })
+            })
+            .collect();
+        Self { places, kept }
+    }
+
+    /// Where a slot of a step is, of steps with so many entries each; `None` where step 0 lacks it.
+    fn entry(&self, step: usize, step_entries: usize, slot: usize) -> Option<usize> {
+        match (step, self.places.get(slot)) {
+            (0, Some(place)) => *place,
+            _ => Some(step * step_entries + slot + self.kept - self.places.len()),
+        }
+    }
+}
+
+impl StageFunctions {
+    /// Where an active state of a node is in the decision vector; none for a given one of node 0.
+    pub(crate) fn state_variable(
+        &self,
+        layout: &DecisionLayout,
+        node: usize,
+        index: usize,
+    ) -> Option<usize> {
+        match node {
+            0 => self.free.iter().position(|&free| free == index),
+            _ => Some(layout.state(node).start + index),
+        }
     }
 }
 

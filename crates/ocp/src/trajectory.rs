@@ -12,6 +12,9 @@ impl MultipleShooting<'_> {
         let mut states = Samples::new(functions.all_states);
         let mut controls = Samples::new(functions.controls);
         let mut state = self.full_initial_state().to_vec();
+        for (&place, &value) in functions.free.iter().zip(z) {
+            state[functions.active[place]] = value;
+        }
         states.push(&state);
         let mut integrator = functions.full_ode.as_ref().map(FullIntegrator::new);
         for step in 0..steps {

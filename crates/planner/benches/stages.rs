@@ -30,7 +30,7 @@ fn evaluation(criterion: &mut Criterion) {
         let mut x = vec![0.0; layout.variables()];
         for step in 0..horizon.steps {
             x[layout.control(step)].fill(1e-3);
-            x[layout.state(step + 1)].copy_from_slice(program.initial_state());
+            x[layout.state(step + 1)].copy_from_slice(&program.initial_state(&[]));
         }
         for (i, value) in x.iter_mut().enumerate() {
             *value += 0.01 * (i as f64).sin();

@@ -47,7 +47,7 @@ fn check(name: &str, steps: usize, with_stage_limits: bool) {
     let grid = Grid::new(0.05 * steps as f64, steps).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &formulated.initial).unwrap();
     let layout = program.layout();
-    let active = program.initial_state().to_vec();
+    let active = program.initial_state(&[]);
     for seed in 0..2 {
         // About the start: quaternions near unit length, joints near where they begin.
         let mut z = spread(layout.variables(), seed);
