@@ -184,7 +184,7 @@ fn trades(slew: &Scenario, interrupt: &Interrupt) -> Result<Vec<PowerTrade>, Fai
     let trade = |duration_s: f64| {
         let mut file = slew.resolved().clone();
         file.name = format!("{} in {duration_s} s", file.name);
-        file.horizon.duration_s = duration_s;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(duration_s);
         file.horizon.steps = DURATION_STEPS;
         let scenario = Scenario::from_file(file, Path::new("durations"))?;
         let planned = planned(scenario, interrupt)?;

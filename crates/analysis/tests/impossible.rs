@@ -18,7 +18,7 @@ fn slew(mount_m: [f64; 3], links: &[Value], axis: [f64; 3], angle_deg: f64) -> S
     varied(&by_hand::on_a_cube(mount_m, links), |file| {
         file.maneuver.axis = Some(axis);
         file.maneuver.angle_deg = Some(angle_deg);
-        file.horizon.duration_s = 60.0;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(60.0);
     })
 }
 
@@ -59,7 +59,9 @@ fn an_arm_that_is_nearly_planar_is_told_in_the_time_there_is() {
     };
     assert!(axis.z > 1.0 - 1e-6 && (off_deg - 90.0).abs() < 0.01 && !are_joints_parallel);
     assert!(0.0 < others_deg && others_deg < 1.0, "{others_deg}");
-    let longer = varied(&scenario, |file| file.horizon.duration_s = 1e6);
+    let longer = varied(&scenario, |file| {
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(1e6)
+    });
     assert_eq!(Impossible::of(&longer), None);
 }
 
@@ -103,7 +105,9 @@ fn one_joint_reaches_its_curve_and_nothing_else() {
 fn a_duration_too_short_for_the_joints_rates_is_told() {
     let in_time = |duration_s| {
         let scenario = shipped("slew_4dof");
-        Impossible::of(&varied(&scenario, |file| file.horizon.duration_s = duration_s))
+        Impossible::of(&varied(&scenario, |file| {
+            file.horizon.duration_s = righting_scenario::file::Duration::Given(duration_s)
+        }))
     };
     assert!(matches!(in_time(0.1), Some(Impossible::TooShort { .. })), "{:?}", in_time(0.1));
     let said = in_time(0.1).unwrap().to_string();

@@ -22,7 +22,7 @@ fn start_moving(scenario: &Scenario) -> Vec<Vec<f64>> {
 
 fn moved(name: &str, duration_s: f64, steps: u32) -> (Scenario, Trajectory) {
     let scenario = varied(&shipped(name), |file| {
-        file.horizon.duration_s = duration_s;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(duration_s);
         file.horizon.steps = f64::from(steps);
     });
     let trajectory = motion(&scenario, &start_moving(&scenario));

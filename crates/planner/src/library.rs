@@ -234,7 +234,8 @@ fn distance(a: &file::Scenario, b: &file::Scenario) -> Option<f64> {
             if larger > 0.0 { (a - b).norm() / larger } else { 0.0 }
         }
     };
-    let duration = (a.horizon.duration_s / b.horizon.duration_s).ln();
+    let [a_s, b_s] = [a, b].map(|scenario| scenario.horizon.duration_s.longest_s());
+    let duration = (a_s / b_s).ln();
     let joints = a.initial.joint_angles_deg.iter().zip(&b.initial.joint_angles_deg);
     let joints: f64 = joints.map(|(a, b)| (a - b).to_radians().powi(2)).sum();
     let mass = masses(a).zip(masses(b)).map(|(a, b)| log_ratio(a, b)).fold(0.0, f64::max);

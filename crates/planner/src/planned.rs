@@ -40,12 +40,17 @@ pub(crate) enum Ending {
 
 impl Planned {
     pub(crate) fn new(
-        scenario: &Scenario,
+        asked: &Scenario,
         scaling: &Scaling,
         found: Found,
         ending: Ending,
         program: &str,
     ) -> Result<Self, ShapeError> {
+        let duration_s = found.duration_share().map(|share| share * asked.horizon().duration_s);
+        let scenario = &match duration_s {
+            Some(duration_s) => asked.clone().with_duration(duration_s),
+            None => asked.clone(),
+        };
         let status = match (ending, status(found.solution.status)) {
             (Ending::Interrupted, _) => Status::Interrupted,
             (Ending::TimeLimit, _) => Status::TimeLimit,
@@ -73,6 +78,7 @@ impl Planned {
             objective: objective(scenario, &trajectory),
             iterations: found.solution.iterations(),
             constraint_violation: found.solution.constraint_violation,
+            duration_s,
             terminal,
             timing_s,
             verification,

@@ -48,7 +48,7 @@ pub(crate) fn remedies(
     let mut duration_s = first_s;
     for _ in 0..MOST_TRIES {
         let rounded_s = two_digits(duration_s);
-        match works(scenario.varied(|file| file.horizon.duration_s = rounded_s)) {
+        match works(scenario.varied(|file| file.horizon.duration_s.set_longest_s(rounded_s))) {
             Some(true) => {
                 notes.push(format!("horizon.duration_s {rounded_s} was tried and works"));
                 return notes;

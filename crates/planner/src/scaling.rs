@@ -67,7 +67,9 @@ impl Scaling {
         let measured = scenario.in_units(&units, 1.0)?;
         let weights = measured.weights();
         let objective = match measured.maneuver() {
-            Maneuver::Slew(_) => weights.control * effort(&measured),
+            Maneuver::Slew(_) => {
+                weights.control * effort(&measured) + weights.time * measured.horizon().duration_s
+            }
             Maneuver::Detumble => {
                 weights.angular_rate * measured.stopped_rate_rad_s().powi(2) / DRIFT_COST
             }

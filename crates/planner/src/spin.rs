@@ -17,7 +17,8 @@ const FAST_TURNS: f64 = 10.0;
 pub(crate) fn beginning_s(scenario: &Scenario) -> f64 {
     let duration_s = scenario.horizon().duration_s;
     let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
-    match spin_rad > LONG_SPIN_RAD {
+    // A duration that is free is a matter of the whole maneuver.
+    match spin_rad > LONG_SPIN_RAD && scenario.free_duration().is_none() {
         true => duration_s.min(HALF_TURNS * half_turn_s(scenario)),
         false => duration_s,
     }

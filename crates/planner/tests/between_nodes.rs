@@ -105,7 +105,7 @@ fn no_link_passes_through_another_between_nodes() {
             joint_angles_deg: [45.0, 110.0, -56.0, -104.0],
             axis: [0.387, -0.122, -0.04],
             angle_deg: 55.0,
-            horizon: Horizon { duration_s: 15.4, steps: 44.0 },
+            horizon: Horizon { duration_s: file::Duration::Given(15.4), steps: 44.0 },
         },
         ThinLinks {
             lengths_m: [0.442, 0.613, 0.687, 0.903],
@@ -113,7 +113,7 @@ fn no_link_passes_through_another_between_nodes() {
             joint_angles_deg: [-119.5, 13.0, -110.0, 16.6],
             axis: [0.266, -0.436, -0.145],
             angle_deg: 47.0,
-            horizon: Horizon { duration_s: 18.0, steps: 76.0 },
+            horizon: Horizon { duration_s: file::Duration::Given(18.0), steps: 76.0 },
         },
         ThinLinks {
             lengths_m: [1.14, 0.91, 0.65, 0.434],
@@ -121,7 +121,7 @@ fn no_link_passes_through_another_between_nodes() {
             joint_angles_deg: [-54.1, 73.0, 7.0, 5.7],
             axis: [0.208, -0.213, -0.429],
             angle_deg: 23.9,
-            horizon: Horizon { duration_s: 26.4, steps: 26.0 },
+            horizon: Horizon { duration_s: file::Duration::Given(26.4), steps: 26.0 },
         },
         ThinLinks {
             lengths_m: [0.949, 1.051, 1.335, 0.417],
@@ -129,7 +129,7 @@ fn no_link_passes_through_another_between_nodes() {
             joint_angles_deg: [-67.5, 9.7, -117.0, -36.5],
             axis: [0.379, -0.386, 0.366],
             angle_deg: 59.7,
-            horizon: Horizon { duration_s: 27.0, steps: 21.0 },
+            horizon: Horizon { duration_s: file::Duration::Given(27.0), steps: 21.0 },
         },
         ThinLinks {
             lengths_m: [0.795, 1.096, 0.591, 0.684],
@@ -137,7 +137,7 @@ fn no_link_passes_through_another_between_nodes() {
             joint_angles_deg: [64.8, 89.2, -110.6, 88.1],
             axis: [0.478, 0.371, -0.047],
             angle_deg: 51.1,
-            horizon: Horizon { duration_s: 21.9, steps: 24.0 },
+            horizon: Horizon { duration_s: file::Duration::Given(21.9), steps: 24.0 },
         },
     ];
     let mut mended = 0;

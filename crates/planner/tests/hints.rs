@@ -9,7 +9,7 @@ use righting_verifier::verify;
 /// The 2-joint slew in so many seconds, with the effort of 600 steps on 60.
 fn slew_in(duration_s: f64, control: f64) -> Scenario {
     varied(&shipped("slew_2dof"), |file| {
-        file.horizon.duration_s = duration_s;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(duration_s);
         file.horizon.steps = 60.0;
         file.weights.control = Some(control);
     })

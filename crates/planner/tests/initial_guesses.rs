@@ -123,7 +123,7 @@ fn a_plan_of_another_duration_and_grid_is_a_start_too() {
     let neighbor = planned(&varied(&shipped("slew_2dof"), |file| file.horizon.steps = 90.0));
     let scenario = varied(&shipped("slew_2dof"), |file| {
         file.horizon.steps = 120.0;
-        file.horizon.duration_s *= 1.25;
+        file.horizon.duration_s = file.horizon.duration_s.times(1.25);
     });
     let cold = planned(&scenario);
     let warm = Planner::new()

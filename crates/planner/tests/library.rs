@@ -68,7 +68,7 @@ fn the_nearest_goal_duration_posture_and_mass_is_chosen() {
     shelf.add("20_deg_other_way", turned_by(-20.0));
     shelf.add("20_deg_slow", |file| {
         file.maneuver.angle_deg = Some(20.0);
-        file.horizon.duration_s *= 2.0;
+        file.horizon.duration_s = file.horizon.duration_s.times(2.0);
     });
     shelf.add("20_deg_bent", |file| {
         file.maneuver.angle_deg = Some(20.0);
@@ -94,7 +94,7 @@ fn the_nearest_goal_duration_posture_and_mass_is_chosen() {
     assert!(name == "20_deg_other_way" && distance < 1e-12, "{name} {distance}");
     let (name, distance) = shelf.nearest(|file| {
         file.maneuver.angle_deg = Some(20.0);
-        file.horizon.duration_s *= 4.0;
+        file.horizon.duration_s = file.horizon.duration_s.times(4.0);
     });
     assert!(name == "20_deg_slow" && (distance - 2.0_f64.ln()).abs() < 1e-12, "{name} {distance}");
     let (name, distance) = shelf.nearest(|file| {

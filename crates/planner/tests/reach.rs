@@ -23,7 +23,9 @@ fn searched(scenario: &Scenario, settings: ReachSettings) -> Reach {
 
 /// Whether a cold solve with this duration succeeds.
 fn succeeds_in(scenario: &Scenario, duration_s: f64) -> bool {
-    let scenario = varied(scenario, |file| file.horizon.duration_s = duration_s);
+    let scenario = varied(scenario, |file| {
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(duration_s)
+    });
     let plan = Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap();
     verify(&scenario, &plan.trajectory).passed
 }
@@ -69,7 +71,9 @@ fn the_shortest_duration_lies_between_failures_and_successes() {
 
 #[test]
 fn a_search_that_begins_with_failure_goes_to_easier_values() {
-    let scenario = varied(&coarse("slew_2dof"), |file| file.horizon.duration_s = 5.0);
+    let scenario = varied(&coarse("slew_2dof"), |file| {
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(5.0)
+    });
     let settings = ReachSettings { resolution: 20.0, ..ReachSettings::new(Quantity::Duration) };
     let found = searched(&scenario, settings);
     let pass = found.first_succeeding.unwrap();
@@ -83,7 +87,7 @@ fn a_search_that_begins_with_failure_goes_to_easier_values() {
 fn the_largest_angle_keeps_its_sign() {
     let scenario = varied(&coarse("slew_2dof"), |file| {
         file.maneuver.angle_deg = Some(-20.0);
-        file.horizon.duration_s = 10.0;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(10.0);
     });
     let settings = ReachSettings { resolution: 4.0, ..ReachSettings::new(Quantity::Angle) };
     let found = searched(&scenario, settings);
@@ -136,7 +140,7 @@ fn angles_that_no_motion_makes_fail_without_a_solve() {
         file.initial.joint_rates_deg_s = None;
         file.maneuver.axis = Some([0.0, 0.0, 1.0]);
         file.maneuver.angle_deg = Some(60.0);
-        file.horizon.duration_s = 60.0;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(60.0);
         file.horizon.steps = 60.0;
     });
     let settings = ReachSettings { resolution: 4.0, ..ReachSettings::new(Quantity::Angle) };

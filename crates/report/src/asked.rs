@@ -1,7 +1,7 @@
 //! What a scenario asks for, in words and as an attitude.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
-use righting_scenario::file::{ManeuverType, Scenario};
+use righting_scenario::file::{Duration, DurationRange, ManeuverType, Scenario};
 
 use crate::number::{drawn, short};
 
@@ -18,7 +18,10 @@ pub(crate) fn phrase_drawn(scenario: &Scenario) -> String {
 fn phrase_with(scenario: &Scenario, number: fn(f64) -> String) -> String {
     let maneuver = &scenario.maneuver;
     let triple = |values: [f64; 3]| format!("[{}]", values.map(number).join(", "));
-    let duration = number(scenario.horizon.duration_s);
+    let duration = match scenario.horizon.duration_s {
+        Duration::Given(duration_s) => number(duration_s),
+        Duration::Free(DurationRange { min, max }) => format!("{} to {}", number(min), number(max)),
+    };
     match maneuver.kind {
         ManeuverType::Slew => {
             let angle = number(maneuver.angle_deg.unwrap_or(f64::NAN));

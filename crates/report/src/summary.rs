@@ -40,6 +40,9 @@ pub fn summary(solution: &Solution, files: &[PathBuf]) -> String {
         short(solution.timing_s.total),
         solution.objective,
     ));
+    if let Some(duration_s) = solution.duration_s {
+        line(format_args!("  chose    a duration of {duration_s:.4} s"));
+    }
     line(format_args!("  reached  {}", reached(solution)));
     for note in &solution.notes {
         line(format_args!("  note     {note}"));

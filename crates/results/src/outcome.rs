@@ -39,7 +39,7 @@ impl Terminal {
 }
 
 /// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu Δt / 0.05 s over the intervals and the
-/// weighted squared errors of the last node. Position, velocity and rates shall be zero; joint
+/// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity and rates shall be zero; joint
 /// angles, and the attitude of a detumble, those of the start.
 pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     let weights = scenario.weights();
@@ -57,6 +57,7 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     let angles = end.joint_angles.iter().zip(&initial.joint_angles_rad);
     let joint_error: f64 = angles.map(|(end, start)| (end - start).powi(2)).sum();
     weights.control_per_step(scenario.horizon()) * effort
+        + weights.time * scenario.horizon().duration_s
         + weights.position * end.position.norm_squared()
         + weights.attitude * end.attitude.error_vector(&desired).norm_squared()
         + weights.velocity * end.velocity.norm_squared()

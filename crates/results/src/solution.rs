@@ -40,6 +40,9 @@ pub struct Solution {
     /// Largest violation of any constraint of the nonlinear program, unscaled.
     #[serde(with = "FiniteOrNull")]
     pub constraint_violation: f64,
+    /// The duration that was chosen, s, where the scenario leaves it free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
     /// What the last node reached.
     pub terminal: Terminal,
     /// Wall-clock times.

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::file;
-use crate::json::{Bounds, Location};
+use crate::json::{Bounds, Location, Number};
 
 /// The most intervals a horizon may have.
 pub const MAX_STEPS: usize = 100_000;
@@ -32,11 +32,38 @@ impl Horizon {
         self.duration_s * k as f64 / self.steps as f64
     }
 
-    /// Checks a horizon that was read from `place`.
-    pub(crate) fn from_file(horizon: &file::Horizon, place: &Location) -> Result<Horizon, Error> {
-        Ok(Horizon {
-            duration_s: place.key("duration_s").within(horizon.duration_s, DURATION_S)?,
+    /// Checks a horizon that was read from `place`: as long as it may be where its duration is free.
+    pub(crate) fn from_file(
+        horizon: &file::Horizon,
+        place: &Location,
+    ) -> Result<(Horizon, Option<FreeDuration>), Error> {
+        let duration_place = place.key("duration_s");
+        let free = match horizon.duration_s {
+            file::Duration::Given(duration_s) => {
+                duration_place.within(duration_s, DURATION_S)?;
+                None
+            }
+            file::Duration::Free(file::DurationRange { min, max }) => {
+                duration_place.key("max").within(max, DURATION_S)?;
+                duration_place.key("min").within(min, DURATION_S)?;
+                if min >= max {
+                    let allowed = format!("a number below max, {}", Number(max));
+                    return Err(duration_place.key("min").refuse(Number(min), allowed));
+                }
+                Some(FreeDuration { shortest_s: min })
+            }
+        };
+        let horizon = Horizon {
+            duration_s: horizon.duration_s.longest_s(),
             steps: place.key("steps").within(horizon.steps, STEPS)? as usize,
-        })
+        };
+        Ok((horizon, free))
     }
+}
+
+/// A duration that the plan chooses: at most that of the [`Horizon`], and at least this.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeDuration {
+    /// The shortest, s.
+    pub shortest_s: f64,
 }

@@ -16,7 +16,7 @@ use crate::start_limits::widen_to_start;
 use crate::start_loads;
 use crate::system_description::{SystemDescription, read_system};
 
-pub use crate::horizon::{Horizon, LONGEST_S, MAX_STEPS};
+pub use crate::horizon::{FreeDuration, Horizon, LONGEST_S, MAX_STEPS};
 pub use crate::maneuver::{Maneuver, Slew};
 pub use crate::solver_settings::{MAX_ITERATIONS, MAX_STARTS, SolverSettings};
 pub use crate::weights::{REFERENCE_INTERVAL_S, Weights};
@@ -33,6 +33,7 @@ pub struct Scenario {
     pub(crate) initial: Initial,
     pub(crate) maneuver: Maneuver,
     pub(crate) horizon: Horizon,
+    pub(crate) free_duration: Option<FreeDuration>,
     pub(crate) weights: Weights,
     pub(crate) is_end_hard: bool,
     pub(crate) collision: CollisionModel,
@@ -96,8 +97,14 @@ impl Scenario {
         let momentum_note =
             check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
         notes.extend(momentum_note);
-        let horizon = Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
-        let weights = Weights::from_file(&scenario.weights, &maneuver, &place.key("weights"))?;
+        let (horizon, free_duration) =
+            Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
+        let weights = Weights::from_file(
+            &scenario.weights,
+            &maneuver,
+            free_duration.is_some(),
+            &place.key("weights"),
+        )?;
         let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
             Some(hard) => hard,
@@ -129,7 +136,7 @@ impl Scenario {
                 angular_rate_deg_s: Some(scenario.initial.angular_rate_deg_s.unwrap_or_default()),
                 attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
             },
-            weights: weights.to_file(),
+            weights: weights.to_file(free_duration.is_some()),
             end: Some(file::End { hard: Some(is_end_hard) }),
             collision: file::Collision { clearance_m: Some(collision.clearance_m) },
             solver: solver.to_file(),
@@ -140,6 +147,7 @@ impl Scenario {
             initial,
             maneuver,
             horizon,
+            free_duration,
             weights,
             is_end_hard,
             collision,
@@ -169,9 +177,20 @@ impl Scenario {
         &self.maneuver
     }
 
-    /// Duration and grid.
+    /// Duration and grid; the longest duration where the plan chooses it.
     pub fn horizon(&self) -> Horizon {
         self.horizon
+    }
+
+    /// The shortest duration, where the plan chooses it.
+    pub fn free_duration(&self) -> Option<FreeDuration> {
+        self.free_duration
+    }
+
+    /// The same scenario with a duration that was chosen; [`resolved`](Self::resolved) stays as it was.
+    pub fn with_duration(self, duration_s: f64) -> Self {
+        let horizon = Horizon { duration_s, ..self.horizon };
+        Self { horizon, free_duration: None, ..self }
     }
 
     /// Weights of the objective.

@@ -6,7 +6,7 @@ use crate::collision::CollisionModel;
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::load_limits::LoadLimits;
-use crate::scenario::{Horizon, Scenario, Weights};
+use crate::scenario::{FreeDuration, Horizon, Scenario, Weights};
 use crate::system_description::SystemDescription;
 
 impl Scenario {
@@ -23,6 +23,7 @@ impl Scenario {
             system: self.system.in_units(units)?,
             initial: self.initial.in_units(units),
             horizon: Horizon { duration_s: self.horizon.duration_s / units.time_s, ..self.horizon },
+            free_duration: self.free_duration.map(|free| free.in_units(units)),
             weights: self.weights.in_units(units, objective_unit),
             collision: self.collision.in_units(units),
             ..self.clone()
@@ -73,6 +74,12 @@ impl Initial {
     }
 }
 
+impl FreeDuration {
+    fn in_units(self, units: &Units) -> Self {
+        Self { shortest_s: self.shortest_s / units.time_s }
+    }
+}
+
 impl Weights {
     /// Each weight times the square of its quantity keeps its value. The control's multiplies an integral
     /// over time; the interval that this is measured by is the same number in any unit.
@@ -81,6 +88,7 @@ impl Weights {
         let of = |weight: f64, unit: f64| weight * unit.powi(2) / objective_unit;
         Self {
             control: of(self.control, time_s.powi(-2)) * time_s,
+            time: self.time * time_s / objective_unit,
             position: of(self.position, length_m),
             attitude: of(self.attitude, 1.0),
             velocity: of(self.velocity, length_m / time_s),

@@ -3,22 +3,27 @@
 use crate::error::Error;
 use crate::file;
 use crate::horizon::Horizon;
-use crate::json::{Bounds, Location};
+use crate::json::{Bounds, Location, Number};
 use crate::maneuver::Maneuver;
 
 /// The interval that the weight of the control is measured by, s: ∫‖q̈‖² dt over so much of it. On the
 /// paper's grid, whose intervals are of this length, that is its sum over the steps.
 pub const REFERENCE_INTERVAL_S: f64 = 0.05;
 
+/// The weight of a duration that is free, where none is given.
+const FREE_TIME: f64 = 1.0;
+
 const WEIGHT: Bounds = Bounds::Between(0.0, 1e20);
 
 /// Weights of the objective: `control` multiplies the integral over time of the squared joint
-/// accelerations, divided by [`REFERENCE_INTERVAL_S`], each other one the squared norm of its error at the
-/// last node. SI and radians.
+/// accelerations, divided by [`REFERENCE_INTERVAL_S`], `time` a duration that is free, each other one the
+/// squared norm of its error at the last node. SI and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
     /// Joint accelerations.
     pub control: f64,
+    /// Duration; zero where it is given.
+    pub time: f64,
     /// Position of the base.
     pub position: f64,
     /// Vector part of the attitude error quaternion.
@@ -38,6 +43,7 @@ impl file::Weights {
     pub(crate) fn has_end(&self) -> bool {
         let Self {
             control: _,
+            time: _,
             position,
             attitude,
             velocity,
@@ -56,8 +62,13 @@ impl Weights {
     pub(crate) fn from_file(
         weights: &file::Weights,
         maneuver: &Maneuver,
+        is_duration_free: bool,
         place: &Location,
     ) -> Result<Weights, Error> {
+        if let (Some(time), false) = (weights.time, is_duration_free) {
+            let allowed = "none where the duration is given: horizon.duration_s {\"min\", \"max\"}";
+            return Err(place.key("time").refuse(Number(time), allowed));
+        }
         let defaults = Weights::defaults(maneuver);
         let weight = |name: &str, given: Option<f64>, default: f64| match given {
             Some(value) => place.key(name).within(value, WEIGHT),
@@ -65,6 +76,7 @@ impl Weights {
         };
         Ok(Weights {
             control: weight("control", weights.control, defaults.control)?,
+            time: weight("time", weights.time, if is_duration_free { FREE_TIME } else { 0.0 })?,
             position: weight("position", weights.position, defaults.position)?,
             attitude: weight("attitude", weights.attitude, defaults.attitude)?,
             velocity: weight("velocity", weights.velocity, defaults.velocity)?,
@@ -84,6 +96,7 @@ impl Weights {
     pub fn defaults(maneuver: &Maneuver) -> Self {
         let none = Self {
             control: 0.01,
+            time: 0.0,
             position: 0.0,
             attitude: 0.0,
             velocity: 0.0,
@@ -97,9 +110,10 @@ impl Weights {
         }
     }
 
-    pub(crate) fn to_file(self) -> file::Weights {
+    pub(crate) fn to_file(self, is_duration_free: bool) -> file::Weights {
         file::Weights {
             control: Some(self.control),
+            time: is_duration_free.then_some(self.time),
             position: Some(self.position),
             attitude: Some(self.attitude),
             velocity: Some(self.velocity),

@@ -53,6 +53,9 @@ fn path_of(pointer: &str) -> String {
 
 fn with(pointer: &str, value: Value) -> Value {
     let mut scenario = good();
+    if pointer.starts_with("/horizon/duration_s/") {
+        scenario["horizon"]["duration_s"] = json!({ "min": 5, "max": 60 });
+    }
     let (parent, key) = pointer.rsplit_once('/').unwrap();
     match scenario.pointer_mut(parent).unwrap() {
         Value::Object(object) => {
@@ -107,6 +110,7 @@ fn a_value_of_the_wrong_type_is_refused_wherever_it_stands() {
             let is_same_type = std::mem::discriminant(&new) == std::mem::discriminant(old);
             // A system may be a path, a missing joint limit any number.
             let is_alternative = pointer == "/system" && new.is_string()
+                || pointer == "/horizon/duration_s" && new.is_object()
                 || old.is_null() && new.is_number()
                 || pointer == "/solver/guess" && new.is_object();
             if is_same_type || is_alternative {
@@ -156,6 +160,8 @@ fn a_missing_field_is_named() {
     ] {
         assert_complains(&without(pointer).to_string(), &path_of(pointer), "missing");
     }
+    let text = with("/horizon/duration_s", json!({ "min": 5 })).to_string();
+    assert_complains(&text, "horizon.duration_s.max", "missing");
 }
 
 #[test]
@@ -208,6 +214,11 @@ fn a_value_out_of_range_is_refused_with_the_range() {
         ("/horizon/duration_s", json!(0), "above 0"),
         ("/horizon/duration_s", json!(-30.0), "above 0"),
         ("/horizon/duration_s", json!(1e308), "found 1e308, expected a number above 0 and up to"),
+        ("/horizon/duration_s/min", json!(60), "found 60, expected a number below max, 60"),
+        ("/horizon/duration_s/min", json!(0), "above 0"),
+        ("/horizon/duration_s/max", json!(-5), "found -5, expected a number above 0"),
+        ("/horizon/duration_s/longest", json!(5), "unknown field"),
+        ("/weights/time", json!(1), "found 1, expected none where the duration is given"),
         ("/maneuver/axis", json!([0, 0, 0]), "a vector that is not zero"),
         ("/maneuver/axis", json!([1, 0]), "an array of 3"),
         ("/maneuver/axis", json!([1, 0, 0, 0]), "an array of 3"),

@@ -121,7 +121,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                     axis: Some([0.0, 0.0, 1.0]),
                     angle_deg: Some(10.0),
                 },
-                horizon: file::Horizon { duration_s: 10.0, steps: 10.0 },
+                horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
                 weights: file::Weights::default(),
                 end: None,
                 collision: file::Collision { clearance_m: Some(0.0) },

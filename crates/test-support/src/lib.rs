@@ -167,6 +167,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         objective: objective(scenario, trajectory),
         iterations: 7,
         constraint_violation: f64::NAN,
+        duration_s: None,
         terminal: Terminal::reached(scenario, trajectory),
         timing_s: Timing::default(),
         verification: verify(scenario, trajectory),

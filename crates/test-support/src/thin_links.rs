@@ -45,7 +45,8 @@ pub fn pendulum(length_m: f64) -> Scenario {
         system.base.inertia_kg_m2 = Some([[50.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, 50.0]]);
         system.base.cube_side_m = None;
         file.initial.joint_angles_deg = vec![0.0, 120.0, 150.0, -60.0];
-        file.horizon = Horizon { duration_s: 3.0, steps: 3.0 };
+        file.horizon =
+            Horizon { duration_s: righting_scenario::file::Duration::Given(3.0), steps: 3.0 };
         file.collision.clearance_m = Some(0.01);
     })
 }

@@ -51,7 +51,7 @@ impl Units {
         let initial = &mut file.initial;
         initial.angular_rate_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
         initial.joint_rates_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
-        file.horizon.duration_s *= self.time;
+        file.horizon.duration_s = file.horizon.duration_s.times(self.time);
         file.weights.control = file.weights.control.map(|weight| weight * self.time.powi(3));
         file.weights.angular_rate =
             file.weights.angular_rate.map(|weight| weight * self.time.powi(2));

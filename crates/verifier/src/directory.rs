@@ -7,7 +7,7 @@ use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE, objective};
 use righting_scenario::error::Error;
 use righting_scenario::json::Location;
-use righting_scenario::scenario::Scenario;
+use righting_scenario::scenario::{FreeDuration, Scenario};
 
 use crate::ledger::{Ledger, Worst};
 use crate::model::State;
@@ -16,6 +16,8 @@ use crate::verify::verify;
 
 /// How far numbers in `solution.json` may be from what the trajectory says, relative.
 const REPORTED: f64 = 1e-6;
+/// How far past its bounds a duration may be, as a share of the longest: what the optimizer relaxes them by.
+const DURATION_ROUNDING: f64 = 1e-7;
 
 /// A result folder, read and checked.
 #[derive(Clone, Debug)]
@@ -43,13 +45,31 @@ pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
         let found = format!("\"{}\"", solution.schema);
         return Err(place.key("schema").refuse(found, format!("\"{SCHEMA}\"")));
     }
-    let scenario =
+    let asked =
         Scenario::from_file_at(solution.scenario.clone(), &solution_file, &place.key("scenario"))?;
+    let scenario = with_chosen_duration(asked, solution.duration_s, &place.key("duration_s"))?;
     let trajectory = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?;
     let mut ledger = Ledger { report: verify(&scenario, &trajectory) };
     check_claims(&solution, &scenario, &trajectory, &mut ledger);
     let solution = Solution { verification: ledger.finish(), ..solution };
     Ok(Verified { solution, scenario, trajectory })
+}
+
+/// The scenario with the duration that the plan chose where it was free to: one within the scenario's bounds.
+fn with_chosen_duration(
+    scenario: Scenario,
+    chosen_s: Option<f64>,
+    place: &Location,
+) -> Result<Scenario, Error> {
+    let Some(FreeDuration { shortest_s }) = scenario.free_duration() else { return Ok(scenario) };
+    let longest_s = scenario.horizon().duration_s;
+    let allowed = format!("the chosen duration, from {shortest_s} to {longest_s}");
+    let Some(chosen_s) = chosen_s else { return Err(place.missing(allowed)) };
+    let rounding = DURATION_ROUNDING * longest_s;
+    match (shortest_s - rounding..=longest_s + rounding).contains(&chosen_s) {
+        true => Ok(scenario.with_duration(chosen_s)),
+        false => Err(place.refuse(chosen_s, allowed)),
+    }
 }
 
 /// What `solution.json` says is what the trajectory shows.

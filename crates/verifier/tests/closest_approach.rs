@@ -102,7 +102,7 @@ fn moving_arm() -> impl Strategy<Value = (Scenario, Trajectory)> {
         "a start that keeps its clearances",
         |(scenario, pushes)| {
             let mut file = scenario.resolved().clone();
-            file.horizon = file::Horizon { duration_s: 6.0, steps: 6.0 };
+            file.horizon = file::Horizon { duration_s: file::Duration::Given(6.0), steps: 6.0 };
             file.collision.clearance_m = Some(CLEARANCE_M);
             file.initial.joint_angles_deg.iter_mut().zip(0..).for_each(|(angle, joint)| {
                 *angle = 50.0 * f64::from(joint % 3) - 40.0;

@@ -147,7 +147,7 @@ proptest! {
         };
         resolved.maneuver =
             file::Maneuver { kind: file::ManeuverType::Detumble, axis: None, angle_deg: None };
-        resolved.horizon = file::Horizon { duration_s: 0.2, steps: 4.0 };
+        resolved.horizon = file::Horizon { duration_s: file::Duration::Given(0.2), steps: 4.0 };
         resolved.collision.clearance_m = Some(clearance_m);
         // A start inside the clearance is refused when the scenario is read.
         let Ok(scenario) = Scenario::from_file(resolved, Path::new("arm.json")) else {

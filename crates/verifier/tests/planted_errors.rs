@@ -16,7 +16,7 @@ const CLEARLY: f64 = 10.0;
 fn tumbling() -> Scenario {
     varied(&shipped("detumble_4dof"), |file| {
         file.horizon.steps = 200.0;
-        file.horizon.duration_s = 20.0;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(20.0);
     })
 }
 

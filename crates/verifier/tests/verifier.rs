@@ -233,7 +233,7 @@ fn a_collision_is_named_with_its_links() {
 fn a_joint_that_turns_back_between_two_nodes_is_followed_to_the_turn() {
     let scenario = varied(&shipped("slew_2dof"), |file| {
         file.horizon.steps = 3.0;
-        file.horizon.duration_s = 3.0;
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(3.0);
         let righting_scenario::file::SystemReference::Inline(system) = &mut file.system else {
             panic!("a resolved system is inline")
         };

@@ -15,6 +15,9 @@ use super::loads::Moment;
 /// full     [r, q_BN, ṙ, ω, q, q̇]     13 + 2j
 /// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃), r and ṙ from the fixed CM
 /// ```
+///
+/// Where the duration is free, one more state ends them: ζ, the duration as a share of the longest. It does not
+/// change along the way, and all rates are multiplied by it: the grid is that of the longest duration.
 #[derive(Clone)]
 pub(crate) struct Coordinates {
     formulation: Formulation,
@@ -25,6 +28,7 @@ pub(crate) struct Coordinates {
     center: Vector3<f64>,
     /// Whether a joint is locked: its control does nothing, and its state stays what it is.
     locked: Arc<[bool]>,
+    is_duration_free: bool,
 }
 
 impl Coordinates {
@@ -40,7 +44,14 @@ impl Coordinates {
         let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
         let limits = scenario.system().joint_limits.iter();
         let locked = limits.map(righting_scenario::JointLimits::is_locked).collect();
-        Self { formulation, momentum: attitude.to_inertial(&h_body), center, system, locked }
+        Self {
+            formulation,
+            momentum: attitude.to_inertial(&h_body),
+            center,
+            system,
+            locked,
+            is_duration_free: scenario.free_duration().is_some(),
+        }
     }
 
     /// Whether a joint is locked.
@@ -54,7 +65,21 @@ impl Coordinates {
 
     /// Number of states.
     pub(crate) fn dimension(&self) -> usize {
+        self.joints_end() + usize::from(self.is_duration_free)
+    }
+
+    fn joints_end(&self) -> usize {
         self.first_joint_angle() + 2 * self.joints()
+    }
+
+    /// Index of ζ among the states, where the duration is free.
+    pub(crate) fn duration(&self) -> Option<usize> {
+        self.is_duration_free.then(|| self.joints_end())
+    }
+
+    /// ζ, which is one where the duration is given.
+    pub(crate) fn duration_share<T: Scalar>(&self, x: &[T]) -> T {
+        self.duration().map_or(T::from(1.0), |index| x[index])
     }
 
     fn first_joint_angle(&self) -> usize {
@@ -84,7 +109,7 @@ impl Coordinates {
 
     /// Takes the joint angles and rates of one state over into another.
     pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
-        let joints = self.joint_angle(0)..self.dimension();
+        let joints = self.joint_angle(0)..self.joints_end();
         to[joints.clone()].copy_from_slice(&from[joints]);
     }
 
@@ -104,7 +129,7 @@ impl Coordinates {
 
     /// The joint rates among the states.
     pub(crate) fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
-        &x[self.joint_rate(0)..]
+        &x[self.joint_rate(0)..self.joints_end()]
     }
 
     /// The state at the start.
@@ -126,34 +151,44 @@ impl Coordinates {
         self.of_free_floating_state(&state)
     }
 
-    /// The state in these coordinates.
+    /// The state in these coordinates, of a motion of the longest duration.
     pub(crate) fn of_free_floating_state(&self, state: &State<f64>) -> Vec<f64> {
-        match self.formulation {
+        let mut x = match self.formulation {
             Formulation::Full => state.to_vec(),
             Formulation::Reduced => {
                 let attitude = state.attitude.to_array();
                 [&attitude[..], &state.joint_angles, &state.joint_rates].concat()
             }
-        }
+        };
+        x.extend(self.is_duration_free.then_some(1.0));
+        x
     }
 
     /// ẋ for the joint accelerations `u`.
     pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         let u = self.accelerations(u);
-        match self.formulation {
-            Formulation::Full => self.system.state_derivative(x, &u),
+        let mut rates = match self.formulation {
+            Formulation::Full => self.system.state_derivative(&x[..self.joints_end()], &u),
             Formulation::Reduced => {
                 let attitude = self.attitude_of(x);
                 let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
                 [&turning[..], self.joint_rates(x), &u].concat()
             }
+        };
+        if self.is_duration_free {
+            let share = self.duration_share(x);
+            rates.iter_mut().for_each(|rate| *rate *= share);
+            rates.push(T::from(0.0));
         }
+        rates
     }
 
     /// Everything that moves, at state `x`.
     pub(crate) fn free_floating_state<T: Scalar>(&self, x: &[T]) -> State<T> {
         match self.formulation {
-            Formulation::Full => State::from_slice(x).expect("the full form's states"),
+            Formulation::Full => {
+                State::from_slice(&x[..self.joints_end()]).expect("the full form's states")
+            }
             Formulation::Reduced => {
                 let (q, qdot) = (self.joint_angles(x), self.joint_rates(x));
                 let attitude = self.attitude_of(x);

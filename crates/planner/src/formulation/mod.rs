@@ -5,7 +5,7 @@
 //! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps
 //! ```
 //!
-//! (the paper's equations 6–14). The desired position, velocity, rates and joint angles are those of
+//! (the paper's equations 6–14), and w_T T where the duration T is free. The desired position, velocity, rates and joint angles are those of
 //! the system at rest where it starts. Distances are squared: the feasible set is the same, and the
 //! square is smooth where two links meet.
 
@@ -79,9 +79,23 @@ impl FormulatedManeuver {
         let loads = Loads::new(scenario);
         let stage_bounds = stage_limits.bounds(limits, &clearances, &loads);
         let within = (stage_limits.clone(), coordinates.clone(), clearances.clone(), loads);
+        if let (Some(index), Some(free)) = (coordinates.duration(), scenario.free_duration()) {
+            state_bounds.lower[index] = free.shortest_s / scenario.horizon().duration_s;
+            state_bounds.upper[index] = 1.0;
+        }
+        let free: Vec<usize> = coordinates.duration().into_iter().collect();
+        let longest = weights.time * scenario.horizon().duration_s;
+        let running = coordinates.clone();
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
-            .running_cost(move |_, u| sum_of_squares(u) * control)
-            .terminal_cost(move |x| goal.cost(&terminal.free_floating_state(x), &weights))
+            .free_initial_states(&free)
+            .running_cost(move |x, u| sum_of_squares(u) * running.duration_share(x) * control)
+            .terminal_cost(move |x| {
+                let end = goal.cost(&terminal.free_floating_state(x), &weights);
+                match longest > 0.0 {
+                    true => end + terminal.duration_share(x) * longest,
+                    false => end,
+                }
+            })
             .state_bounds(state_bounds)
             .control_bounds(ComponentBounds::symmetric(&accelerations))
             .path_constraints(clearances.bounds(), move |x| {
@@ -89,6 +103,7 @@ impl FormulatedManeuver {
             })
             .stage_constraints(stage_bounds, move |x, u, h| {
                 let (stage_limits, coordinates, clearances, loads) = &within;
+                let h = h * coordinates.duration_share(x);
                 stage_limits.values(coordinates, (clearances, loads), (x, u), h)
             });
         // The paper transcribes all states, and which ones there are decides where its guess leads.

@@ -3,7 +3,7 @@
 use righting_analysis::Impossible;
 use righting_ocp::Control;
 use righting_results::solution::{IterationRecord, Status, Terminal};
-use righting_scenario::file::{Guess, LowDiscrepancyStarts};
+use righting_scenario::file::{self, Guess, LowDiscrepancyStarts};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
 use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
@@ -133,7 +133,10 @@ impl<'a> Trials<'a> {
 
     fn variant(&self, value: f64) -> Result<Scenario, ReachError> {
         Ok(self.scenario.varied(|file| match self.settings.quantity {
-            Quantity::Duration => file.horizon.duration_s = value,
+            Quantity::Duration => {
+                file.horizon.duration_s = file::Duration::Given(value);
+                file.weights.time = None;
+            }
             Quantity::Angle => {
                 let asked = file.maneuver.angle_deg.unwrap_or(1.0);
                 file.maneuver.angle_deg = Some(value.copysign(asked));

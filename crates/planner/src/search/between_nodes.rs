@@ -77,7 +77,7 @@ impl Search<'_> {
         let joint_limits = &self.scenario.system().joint_limits;
         let OcpSolution { states, controls, .. } = solution;
         let Model { coordinates, .. } = model;
-        let step_s = grid.step_s();
+        let step_s = grid.step_s() * coordinates.duration_share(states.row(0));
         let kept = (&self.clearances, &self.loads);
         passed_limits(joint_limits, kept, coordinates, states, controls, step_s)
     }

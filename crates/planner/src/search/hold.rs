@@ -39,7 +39,7 @@ impl Search<'_> {
         }
         // What is left of the joints' rates is stopped in the first step that follows.
         let coordinates = &self.model.coordinates;
-        let rates = &solution.states.row(moved)[coordinates.joint_rate(0)..];
+        let rates = coordinates.joint_rates(solution.states.row(moved));
         let stop = rates.iter().map(|rate| -rate / self.grid.step_s());
         motion.controls.row_mut(moved).iter_mut().zip(stop).for_each(|(u, stop)| *u = stop);
         let end = coordinates.free_floating_state(solution.states.row(moved));
@@ -47,7 +47,7 @@ impl Search<'_> {
         let substeps = ((turn_rad / HOLD_TURN_RAD).ceil() as usize).max(1);
         guesses.simulate(&mut motion, moved, substeps);
         let asked = &self.scenario.resolved().horizon;
-        let time_s = asked.duration_s * moved as f64 / asked.steps;
+        let time_s = asked.duration_s.longest_s() * moved as f64 / asked.steps;
         self.notes.push(format!(
             "the arm moves in the first {time_s:.6} s and holds still in the rest: only the beginning is \
              optimized, as no longer motion turns the base slower"

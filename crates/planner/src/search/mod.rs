@@ -98,6 +98,13 @@ pub(crate) struct Found {
     pub(crate) solve: Duration,
 }
 
+impl Found {
+    /// The duration as a share of the longest, where it was free.
+    pub(crate) fn duration_share(&self) -> Option<f64> {
+        self.coordinates.duration().map(|index| self.solution.states.row(0)[index])
+    }
+}
+
 impl<'a> Search<'a> {
     /// Traces and compiles the scenario's problem.
     pub(crate) fn new(
