@@ -40,7 +40,8 @@ impl InitialGuesses<'_> {
 
     /// Low-discrepancy guesses `first`, `first + 1`, … without end; each is the same every time. Every
     /// joint moves smoothly, rest to rest, to somewhere within its limits, and some of the way back. The
-    /// ends are points of a Halton sequence. The base's attitude is held.
+    /// ends are points of a Halton sequence; joints whose angle at the end is given go on to there. The base's
+    /// attitude is held.
     pub(crate) fn low_discrepancy(&self, first: u64) -> impl Iterator<Item = InitialGuess> {
         let joints = self.scenario.system().joint_count();
         // Two points a guess: how far each joint goes, and how much of it stays.
@@ -90,7 +91,7 @@ impl InitialGuesses<'_> {
             let row = guess.controls.row_mut(step).iter_mut();
             row.zip(by.controls.row(step)).for_each(|(u, change)| *u += share * change);
         }
-        guess
+        self.to_end_posture(guess)
     }
 
     /// Fills in the states that follow after the first `steps` steps, each integrated in so many
@@ -151,7 +152,7 @@ impl InitialGuesses<'_> {
                 *control = acceleration * faster * faster;
             }
         }
-        guess
+        self.to_end_posture(guess)
     }
 
     /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
@@ -172,6 +173,23 @@ impl InitialGuesses<'_> {
         images.into_iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
     }
 
+    /// A guess with a smooth motion of the joints on top that brings those whose angle at the end is given
+    /// there, from rest to rest; the base's attitude stays as it was.
+    pub(crate) fn to_end_posture(&self, mut guess: InitialGuess) -> InitialGuess {
+        let end = guess.states.row(self.steps);
+        let missing = self.scenario.end_angles_rad().iter().enumerate().map(|(joint, angle)| {
+            angle.map_or(0.0, |angle| angle - end[self.coordinates.joint_angle(joint)])
+        });
+        let missing: Vec<f64> = missing.collect();
+        if missing.iter().any(|&missing| missing != 0.0) {
+            let duration_s = self.scenario.horizon().duration_s;
+            let motions =
+                missing.iter().map(|&amplitude| Motion { amplitude, back: 0.0, duration_s });
+            self.add(&motions.collect::<Vec<_>>(), &mut guess);
+        }
+        guess
+    }
+
     fn with_joints_to(&self, reach: &[f64], back: &[f64]) -> InitialGuess {
         let duration_s = self.scenario.horizon().duration_s;
         let limits = &self.scenario.system().joint_limits;
@@ -185,12 +203,17 @@ impl InitialGuesses<'_> {
             let amplitude = signed * room.clamp(0.0, FREE_JOINT_RAD) * LIMIT_SHARE;
             Motion { amplitude, back: back[joint], duration_s }
         });
-        self.moved(&motions.collect::<Vec<_>>())
+        let mut guess = self.constant();
+        let rates = self.coordinates.joint_rate(0)..self.coordinates.joint_rate(limits.len());
+        for node in 1..=self.steps {
+            guess.states.row_mut(node)[rates.clone()].fill(0.0);
+        }
+        self.add(&motions.collect::<Vec<_>>(), &mut guess);
+        self.to_end_posture(guess)
     }
 
-    /// The joints move so, and the base's attitude is held.
-    fn moved(&self, motions: &[Motion]) -> InitialGuess {
-        let mut guess = self.constant();
+    /// Adds motions of the joints to a guess.
+    fn add(&self, motions: &[Motion], guess: &mut InitialGuess) {
         for (joint, motion) in motions.iter().enumerate() {
             let (angle, rate) =
                 (self.coordinates.joint_angle(joint), self.coordinates.joint_rate(joint));
@@ -198,14 +221,13 @@ impl InitialGuesses<'_> {
                 let row = guess.states.row_mut(node);
                 let phase = node as f64 / self.steps as f64;
                 row[angle] += motion.angle(phase);
-                row[rate] = motion.rate(phase);
+                row[rate] += motion.rate(phase);
             }
             for step in 0..self.steps {
                 let phase = (step as f64 + 0.5) / self.steps as f64;
-                guess.controls.row_mut(step)[joint] = motion.acceleration(phase);
+                guess.controls.row_mut(step)[joint] += motion.acceleration(phase);
             }
         }
-        guess
     }
 }
 

@@ -245,8 +245,9 @@ fn distance(a: &file::Scenario, b: &file::Scenario) -> Option<f64> {
 
 /// Axis times angle, rad.
 fn rotation_vector(scenario: &file::Scenario) -> Option<Vector3<f64>> {
-    let axis = Vector3::from(scenario.maneuver.axis?).try_normalize(f64::MIN_POSITIVE)?;
-    Some(axis * scenario.maneuver.angle_deg?.to_radians())
+    let (axis, angle_deg) = scenario.slew_axis_and_angle_deg()?;
+    let axis = Vector3::from(axis).try_normalize(f64::MIN_POSITIVE)?;
+    Some(axis * angle_deg.to_radians())
 }
 
 /// Of the base, the payload and every link.

@@ -24,8 +24,9 @@ fn phrase_with(scenario: &Scenario, number: fn(f64) -> String) -> String {
     };
     match maneuver.kind {
         ManeuverType::Slew => {
-            let angle = number(maneuver.angle_deg.unwrap_or(f64::NAN));
-            let axis = triple(maneuver.axis.unwrap_or([f64::NAN; 3]));
+            let (axis, angle_deg) =
+                scenario.slew_axis_and_angle_deg().unwrap_or(([f64::NAN; 3], f64::NAN));
+            let (axis, angle) = (triple(axis), number(angle_deg));
             format!("slew of {angle}° about {axis} in {duration} s")
         }
         ManeuverType::Detumble => {
@@ -38,9 +39,9 @@ fn phrase_with(scenario: &Scenario, number: fn(f64) -> String) -> String {
 /// The attitude a slew is to reach, body → inertial; `None` for a detumble.
 pub(crate) fn target(scenario: &Scenario) -> Option<UnitQuaternion<f64>> {
     let start = unit(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]));
-    let axis = Unit::try_new(Vector3::from(scenario.maneuver.axis?), f64::MIN_POSITIVE)?;
-    let angle = scenario.maneuver.angle_deg?.to_radians();
-    Some(start * UnitQuaternion::from_axis_angle(&axis, angle))
+    let (axis, angle_deg) = scenario.slew_axis_and_angle_deg()?;
+    let axis = Unit::try_new(Vector3::from(axis), f64::MIN_POSITIVE)?;
+    Some(start * UnitQuaternion::from_axis_angle(&axis, angle_deg.to_radians()))
 }
 
 /// The rotation of a scalar-first quaternion of any length.

@@ -39,8 +39,9 @@ impl Terminal {
 }
 
 /// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu Δt / 0.05 s over the intervals and the
-/// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity and rates shall be zero; joint
-/// angles, and the attitude of a detumble, those of the start.
+/// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity
+/// and rates shall be zero; joint angles those in which the joints shall end, and where that is open those of the
+/// start, as the attitude of a detumble.
 pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     let weights = scenario.weights();
     let initial = scenario.initial();
@@ -54,8 +55,9 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         .map(|interval| sum_of_squares(&interval.joint_accelerations_rad_s2))
         .sum();
     let end = trajectory.end().state();
-    let angles = end.joint_angles.iter().zip(&initial.joint_angles_rad);
-    let joint_error: f64 = angles.map(|(end, start)| (end - start).powi(2)).sum();
+    let desired_angles = scenario.desired_joint_angles_rad();
+    let angles = end.joint_angles.iter().zip(&desired_angles);
+    let joint_error: f64 = angles.map(|(end, desired)| (end - desired).powi(2)).sum();
     weights.control_per_step(scenario.horizon()) * effort
         + weights.time * scenario.horizon().duration_s
         + weights.position * end.position.norm_squared()

@@ -83,6 +83,10 @@ pub struct Maneuver {
     /// Angle to turn by, deg. For a slew only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
+    /// Attitude to reach: unit quaternion w, x, y, z (Hamilton, body → inertial), of either sign. For a slew
+    /// only, instead of `axis` and `angle_deg`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_attitude: Option<[f64; 4]>,
 }
 
 /// The kinds of maneuver.
@@ -173,6 +177,10 @@ pub struct End {
     /// and the guess is not the constant one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hard: Option<bool>,
+    /// The angle in which each joint ends, deg; null where it is free. The given ones are met exactly,
+    /// whatever `hard` and the weights say. All are free by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_angles_deg: Option<Vec<Option<f64>>>,
 }
 
 /// Weights of the objective, in SI units and radians. `control` multiplies the integral over time of the
@@ -500,8 +508,20 @@ fn require_slew_target(schema: &mut schemars::Schema) {
     schema.insert(
         "oneOf".to_owned(),
         serde_json::json!([
-            { "properties": { "type": { "const": "slew" } }, "required": ["axis", "angle_deg"] },
-            { "properties": { "type": { "const": "detumble" }, "axis": false, "angle_deg": false } }
+            {
+                "properties": { "type": { "const": "slew" }, "target_attitude": false },
+                "required": ["axis", "angle_deg"]
+            },
+            {
+                "properties": { "type": { "const": "slew" }, "axis": false, "angle_deg": false },
+                "required": ["target_attitude"]
+            },
+            {
+                "properties": {
+                    "type": { "const": "detumble" },
+                    "axis": false, "angle_deg": false, "target_attitude": false
+                }
+            }
         ]),
     );
 }

@@ -81,22 +81,30 @@ fn joint_angles(
     require_one_a_joint(&initial.joint_angles_deg, limits, place)?;
     let checked = initial.joint_angles_deg.iter().zip(limits).enumerate();
     checked
-        .map(|(index, (&angle_deg, limits))| {
-            let place = place.index(index);
-            let angle_rad = place.within(angle_deg, JOINT_ANGLE_DEG)?.to_radians();
-            if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
-                let low = Number(degrees(limits.angle_min_rad));
-                let high = Number(degrees(limits.angle_max_rad));
-                let joint = index + 1;
-                let allowed = match limits.is_locked() {
-                    true => format!("{low}, the angle at which joint {joint} is locked"),
-                    false => format!("{low} to {high}, the limits of joint {joint}"),
-                };
-                return Err(place.refuse(Number(angle_deg), allowed));
-            }
-            Ok(angle_rad)
-        })
+        .map(|(joint, (&angle_deg, limits))| joint_angle(angle_deg, joint, limits, place))
         .collect()
+}
+
+/// Checks the angle of a joint, counted from zero, that stands in an array at `place`; rad.
+pub(crate) fn joint_angle(
+    angle_deg: f64,
+    joint: usize,
+    limits: &JointLimits,
+    place: &Location,
+) -> Result<f64, Error> {
+    let place = place.index(joint);
+    let angle_rad = place.within(angle_deg, JOINT_ANGLE_DEG)?.to_radians();
+    if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
+        let low = Number(degrees(limits.angle_min_rad));
+        let high = Number(degrees(limits.angle_max_rad));
+        let number = joint + 1;
+        let allowed = match limits.is_locked() {
+            true => format!("{low}, the angle at which joint {number} is locked"),
+            false => format!("{low} to {high}, the limits of joint {number}"),
+        };
+        return Err(place.refuse(Number(angle_deg), allowed));
+    }
+    Ok(angle_rad)
 }
 
 fn joint_rates(
@@ -129,8 +137,8 @@ fn joint_rates(
         .collect()
 }
 
-fn require_one_a_joint(
-    values: &[f64],
+pub(crate) fn require_one_a_joint<T>(
+    values: &[T],
     limits: &[JointLimits],
     place: &Location,
 ) -> Result<(), Error> {

@@ -29,6 +29,7 @@
 #![forbid(unsafe_code)]
 
 pub mod collision;
+mod end;
 pub mod error;
 pub mod file;
 pub mod file_io;

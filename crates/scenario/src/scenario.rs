@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
+use crate::end::{check_end_clearances, end_angles};
 use crate::error::Error;
 use crate::file::{self, SystemReference};
 use crate::initial::Initial;
@@ -36,6 +37,7 @@ pub struct Scenario {
     pub(crate) free_duration: Option<FreeDuration>,
     pub(crate) weights: Weights,
     pub(crate) is_end_hard: bool,
+    pub(crate) end_angles_rad: Vec<Option<f64>>,
     pub(crate) collision: CollisionModel,
     pub(crate) solver: SolverSettings,
     pub(crate) resolved: file::Scenario,
@@ -93,7 +95,9 @@ impl Scenario {
         let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
         let rate_place = initial_place.key("angular_rate_deg_s");
         start_loads::check(&system, &initial, &rate_place, &links_place)?;
-        let maneuver = Maneuver::from_file(&scenario.maneuver, &initial, &place.key("maneuver"))?;
+        let maneuver_place = place.key("maneuver");
+        let maneuver =
+            Maneuver::from_file(&scenario.maneuver, &initial, &maneuver_place, &mut notes)?;
         let momentum_note =
             check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
         notes.extend(momentum_note);
@@ -110,6 +114,9 @@ impl Scenario {
             Some(hard) => hard,
             None => !solver.is_paper() && !scenario.weights.has_end(),
         };
+        let end_angles_deg = scenario.end.as_mut().and_then(|end| end.joint_angles_deg.take());
+        let end_place = place.key("final").key("joint_angles_deg");
+        let end_angles_rad = end_angles(end_angles_deg.as_deref(), &system, &end_place)?;
         let clearance_place = place.key("collision").key("clearance_m");
         let clearance_m = match scenario.collision.clearance_m {
             Some(clearance_m) => clearance_place.within(clearance_m, CLEARANCE_M)?,
@@ -123,6 +130,7 @@ impl Scenario {
             clearance: clearance_place,
         };
         let collision = start.collision_model(clearance_m, &mut notes)?;
+        check_end_clearances(&system, &collision, &initial, &end_angles_rad, &end_place)?;
         let resolved = file::Scenario {
             initial: file::Initial {
                 joint_angles_deg: scenario.initial.joint_angles_deg.clone(),
@@ -137,7 +145,7 @@ impl Scenario {
                 attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
             },
             weights: weights.to_file(free_duration.is_some()),
-            end: Some(file::End { hard: Some(is_end_hard) }),
+            end: Some(file::End { hard: Some(is_end_hard), joint_angles_deg: end_angles_deg }),
             collision: file::Collision { clearance_m: Some(collision.clearance_m) },
             solver: solver.to_file(),
             ..scenario
@@ -150,6 +158,7 @@ impl Scenario {
             free_duration,
             weights,
             is_end_hard,
+            end_angles_rad,
             collision,
             solver,
             resolved,
@@ -221,6 +230,18 @@ impl Scenario {
     /// Whether the end is met as well as numbers allow, rather than traded for effort.
     pub fn is_end_hard(&self) -> bool {
         self.is_end_hard
+    }
+
+    /// The angles in which joints shall end, one a joint, rad; none where the joint is free.
+    pub fn end_angles_rad(&self) -> &[Option<f64>] {
+        &self.end_angles_rad
+    }
+
+    /// The joint angles that the weight `joint_angle` asks for at the end, rad: those in which the joints
+    /// shall end, and of free ones those of the start.
+    pub fn desired_joint_angles_rad(&self) -> Vec<f64> {
+        let start = self.initial.joint_angles_rad.iter();
+        start.zip(&self.end_angles_rad).map(|(start, end)| end.unwrap_or(*start)).collect()
     }
 
     /// Which links keep how far from what.

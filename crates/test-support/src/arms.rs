@@ -120,6 +120,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                     kind: file::ManeuverType::Slew,
                     axis: Some([0.0, 0.0, 1.0]),
                     angle_deg: Some(10.0),
+                    target_attitude: None,
                 },
                 horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
                 weights: file::Weights::default(),

@@ -1,6 +1,6 @@
 //! What the end of a maneuver shall be, and what it is.
 
-use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
 use righting_results::solution::Terminal;
 use righting_scenario::file;
 
@@ -23,6 +23,10 @@ impl Goal {
     pub fn new(maneuver: &file::Maneuver, model: &Model, start: &State<'_>) -> Self {
         match maneuver.kind {
             file::ManeuverType::Slew => {
+                if let Some([w, x, y, z]) = maneuver.target_attitude {
+                    let target = Quaternion::new(w, x, y, z);
+                    return Self::Attitude(UnitQuaternion::from_quaternion(target));
+                }
                 // A slew without them was refused when the scenario was read.
                 let axis = Unit::new_normalize(Vector3::from(maneuver.axis.unwrap_or_default()));
                 let angle_rad = maneuver.angle_deg.unwrap_or(f64::NAN).to_radians();

@@ -20,7 +20,7 @@
 //!   1e-4 rad in attitude, a twentieth of what a slew may miss its target by. In momentum that is
 //!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
 //! - joints follow from the controls exactly, so they may differ by what a solver leaves of its
-//!   equations: 1e-6 rad and rad/s.
+//!   equations: 1e-6 rad and rad/s. Where the posture at the end is given, they end there to 1e-4 rad.
 //!
 //! ```
 //! use std::path::Path;
@@ -66,6 +66,7 @@ mod limits;
 mod loads;
 pub mod model;
 mod motion_bound;
+mod posture;
 mod requirements;
 mod simulation;
 mod tolerances;

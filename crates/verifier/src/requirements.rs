@@ -9,6 +9,7 @@ use crate::goal::Goal;
 use crate::loads::LoadLimits;
 use crate::model::{BaseAcceleration, Model, Motion, State};
 use crate::motion_bound::Reach;
+use crate::posture::EndPosture;
 use crate::tolerances::{Measures, Tolerances};
 
 /// Everything that a plan is measured by.
@@ -19,6 +20,7 @@ pub(super) struct Requirements {
     /// State vector at the start: the base's center of mass at the origin, the system's at rest.
     pub start: Vec<f64>,
     pub goal: Goal,
+    pub end_posture: EndPosture,
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
     pub load_limits: LoadLimits,
@@ -59,6 +61,7 @@ impl Requirements {
             measures: Measures::new(size_m(system), model.total_mass(), duration_s),
             is_end_hard: file.end.as_ref().and_then(|end| end.hard).unwrap_or(false),
             goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
+            end_posture: EndPosture::new(file.end.as_ref()),
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),

@@ -250,4 +250,5 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
     };
     single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);
     single("joint rate at the end", "deg/s", reached.joint_rate_deg_s, joint_rate);
+    asked.end_posture.check(end, asked.horizon.duration_s, ledger);
 }

@@ -145,8 +145,12 @@ proptest! {
             angular_rate_deg_s: Some(sample.angular_rate.map(f64::to_degrees)),
             attitude: Some(sample.attitude),
         };
-        resolved.maneuver =
-            file::Maneuver { kind: file::ManeuverType::Detumble, axis: None, angle_deg: None };
+        resolved.maneuver = file::Maneuver {
+            kind: file::ManeuverType::Detumble,
+            axis: None,
+            angle_deg: None,
+            target_attitude: None,
+        };
         resolved.horizon = file::Horizon { duration_s: file::Duration::Given(0.2), steps: 4.0 };
         resolved.collision.clearance_m = Some(clearance_m);
         // A start inside the clearance is refused when the scenario is read.

@@ -5,12 +5,14 @@
 //! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps
 //! ```
 //!
-//! (the paper's equations 6–14), and w_T T where the duration T is free. The desired position, velocity, rates and joint angles are those of
-//! the system at rest where it starts. Distances are squared: the feasible set is the same, and the
-//! square is smooth where two links meet.
+//! (the paper's equations 6–14), w_T T where the duration T is free, and q_N as far as the scenario gives the
+//! posture at the end. The desired position, velocity, rates and joint angles are those of the system at rest
+//! where it starts, or ends. Distances are squared: the feasible set is the same, and the square is smooth where
+//! two links meet.
 
 mod coordinates;
 mod loads;
+mod posture;
 mod stage_limits;
 #[cfg(test)]
 mod tests;
@@ -24,6 +26,7 @@ use righting_symbolic::{Expr, trace};
 
 pub(crate) use coordinates::Coordinates;
 pub(crate) use loads::Loads;
+use posture::EndPosture;
 use righting_scenario::collision::{Between, CollisionModel};
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
@@ -86,6 +89,8 @@ impl FormulatedManeuver {
         let free: Vec<usize> = coordinates.duration().into_iter().collect();
         let longest = weights.time * scenario.horizon().duration_s;
         let running = coordinates.clone();
+        let posture = EndPosture::new(scenario, &coordinates);
+        let end = coordinates.clone();
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
             .free_initial_states(&free)
             .running_cost(move |x, u| sum_of_squares(u) * running.duration_share(x) * control)
@@ -105,7 +110,8 @@ impl FormulatedManeuver {
                 let (stage_limits, coordinates, clearances, loads) = &within;
                 let h = h * coordinates.duration_share(x);
                 stage_limits.values(coordinates, (clearances, loads), (x, u), h)
-            });
+            })
+            .terminal_constraints(posture.bounds(), move |x| posture.values(&end, x));
         // The paper transcribes all states, and which ones there are decides where its guess leads.
         let problem = match scenario.solver().is_paper() {
             true => problem.keep_passive_states(),
@@ -128,7 +134,7 @@ impl Goal {
             Maneuver::Slew(slew) => slew.target,
             Maneuver::Detumble => initial.attitude,
         };
-        Self { attitude, joint_angles_rad: initial.joint_angles_rad.clone() }
+        Self { attitude, joint_angles_rad: scenario.desired_joint_angles_rad() }
     }
 
     fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {

@@ -38,7 +38,15 @@ impl InitialGuesses<'_> {
             // Nothing turns it so from here; a radian of joint motion is as good a measure as any.
             false => REST_TO_REST / duration_s.powi(3),
         };
-        least / REFERENCE_INTERVAL_S
+        (least + self.posture_effort(duration_s)) / REFERENCE_INTERVAL_S
+    }
+
+    /// The least ∫‖q̈‖² dt with which the joints come to the posture at the end, as far as it is given.
+    fn posture_effort(&self, duration_s: f64) -> f64 {
+        let start = &self.scenario.initial().joint_angles_rad;
+        let ways = start.iter().zip(self.scenario.end_angles_rad());
+        let squares = ways.filter_map(|(start, end)| Some(((*end)? - start).powi(2)));
+        REST_TO_REST * squares.sum::<f64>() / duration_s.powi(3)
     }
 
     /// The length of the shortest joint motion that turns the base by `turn_rad` to first order.

@@ -4,7 +4,7 @@ use righting_analysis::Impossible;
 use righting_ocp::Control;
 use righting_results::solution::{IterationRecord, Status, Terminal};
 use righting_scenario::file::{self, Guess, LowDiscrepancyStarts};
-use righting_scenario::scenario::{Maneuver, Scenario};
+use righting_scenario::scenario::Scenario;
 
 use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
 use crate::planner::Planner;
@@ -138,8 +138,10 @@ impl<'a> Trials<'a> {
                 file.weights.time = None;
             }
             Quantity::Angle => {
-                let asked = file.maneuver.angle_deg.unwrap_or(1.0);
-                file.maneuver.angle_deg = Some(value.copysign(asked));
+                let asked = file.slew_axis_and_angle_deg();
+                file.maneuver.target_attitude = None;
+                file.maneuver.axis = asked.map(|(axis, _)| axis);
+                file.maneuver.angle_deg = asked.map(|(_, angle_deg)| value.copysign(angle_deg));
             }
         })?)
     }
@@ -262,10 +264,7 @@ fn impossible(scenario: &Scenario, reason: &Impossible) -> Try {
 
 /// The angle of a slew as its scenario has it, deg.
 fn angle_deg(scenario: &Scenario) -> Option<f64> {
-    match scenario.maneuver() {
-        Maneuver::Slew(_) => scenario.resolved().maneuver.angle_deg,
-        Maneuver::Detumble => None,
-    }
+    scenario.resolved().slew_axis_and_angle_deg().map(|(_, angle_deg)| angle_deg)
 }
 
 fn terminal(found: &Reached) -> Terminal {

@@ -41,7 +41,7 @@ pub(super) fn ranked_guesses(
     batch: usize,
 ) -> Vec<InitialGuess> {
     let is_first = batch == 0;
-    let constant = || is_first.then(|| guesses.constant());
+    let constant = || is_first.then(|| guesses.to_end_posture(guesses.constant()));
     match (scenario.solver().guess, scenario.maneuver()) {
         (file::Guess::Named(NamedGuess::Constant), _) => Vec::new(),
         (file::Guess::Starts(LowDiscrepancyStarts { starts, .. }), _) => {
@@ -69,7 +69,8 @@ pub(super) fn ranked_guesses(
                 .iter()
                 .flat_map(|&number| spread(number))
                 .map(|guess| guesses.simulated(guess));
-            let loops = guesses.joint_loops(target, loops);
+            let loops = guesses.joint_loops(target, loops).into_iter();
+            let loops = loops.map(|guess| guesses.to_end_posture(guess));
             constant()
                 .into_iter()
                 .chain(held)

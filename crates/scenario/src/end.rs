@@ -1,0 +1,73 @@
+//! The posture in which an arm shall end.
+
+use crate::collision::CollisionModel;
+use crate::error::Error;
+use crate::halton::Halton;
+use crate::initial::{Initial, joint_angle, require_one_a_joint};
+use crate::json::{Location, Number};
+use crate::rounding::COMPUTED;
+use crate::system_description::SystemDescription;
+
+/// Postures of the free joints that are looked at to tell which distances the given ones decide.
+const POSTURES: usize = 4;
+
+/// Checks the joint angles of an end that was read from `place`: one a joint, rad; none where the joint is
+/// free.
+pub(crate) fn end_angles(
+    angles_deg: Option<&[Option<f64>]>,
+    system: &SystemDescription,
+    place: &Location,
+) -> Result<Vec<Option<f64>>, Error> {
+    let limits = &system.joint_limits;
+    let Some(angles_deg) = angles_deg else { return Ok(vec![None; limits.len()]) };
+    require_one_a_joint(angles_deg, limits, place)?;
+    let given = angles_deg.iter().zip(limits).enumerate();
+    given
+        .map(|(joint, (angle_deg, limits))| {
+            angle_deg.map(|angle_deg| joint_angle(angle_deg, joint, limits, place)).transpose()
+        })
+        .collect()
+}
+
+/// Refuses an end in which something is too close whatever the free joints do.
+pub(crate) fn check_end_clearances(
+    system: &SystemDescription,
+    collision: &CollisionModel,
+    initial: &Initial,
+    end_angles_rad: &[Option<f64>],
+    place: &Location,
+) -> Result<(), Error> {
+    if end_angles_rad.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    let model = &system.model;
+    let reach_m = model.mount().position_m.norm() + model.length_m();
+    let slack_m = COMPUTED * reach_m;
+    let distances = |free: &[f64]| -> Vec<f64> {
+        let angles = end_angles_rad.iter().zip(free).map(|(given, free)| given.unwrap_or(*free));
+        let posture = model.kinematics(&angles.collect::<Vec<_>>());
+        collision.clearances(&posture).map(|clearance| clearance.distance_m).collect()
+    };
+    let at_start = distances(&initial.joint_angles_rad);
+    let elsewhere: Vec<Vec<f64>> = Halton::new(system.joint_count())
+        .take(POSTURES)
+        .map(|sample| distances(&system.joint_angles_at(&sample)))
+        .collect();
+    let posture = model.kinematics(&initial.joint_angles_rad);
+    let clearances = collision.clearances(&posture).enumerate();
+    for (index, clearance) in clearances {
+        let distance_m = at_start[index];
+        let is_decided = elsewhere.iter().all(|other| (other[index] - distance_m).abs() <= slack_m);
+        if is_decided && distance_m < clearance.least_m - slack_m {
+            return Err(place.refuse(
+                format_args!(
+                    "an end with {} {} m apart",
+                    clearance.between,
+                    Number::rounded(distance_m, 6)
+                ),
+                format_args!("at least {} m", Number::rounded(clearance.least_m, 6)),
+            ));
+        }
+    }
+    Ok(())
+}
