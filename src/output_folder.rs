@@ -43,6 +43,8 @@ pub const JOINTS_FILE: &str = "joints.svg";
 pub const REPORT_FILE: &str = "report.html";
 /// The figure of the clearances.
 pub const CLEARANCES_FILE: &str = "clearances.svg";
+/// The figure of where instruments look.
+pub const POINTING_FILE: &str = "pointing.svg";
 /// The figure of the momentum's conservation.
 pub const MOMENTUM_FILE: &str = "momentum.svg";
 /// The figure of the optimizer's way.
@@ -61,13 +63,14 @@ pub const NPZ_FILE: &str = "trajectory.npz";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 13] = [
+const ALL: [&str; 14] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
     JOINTS_FILE,
     REPORT_FILE,
     CLEARANCES_FILE,
+    POINTING_FILE,
     MOMENTUM_FILE,
     CONVERGENCE_FILE,
     SPARSITY_FILE,

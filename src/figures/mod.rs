@@ -13,7 +13,7 @@ use righting_planner::PlanError;
 use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
     FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
-    momentum_svg, power_svg, sparsity_svg,
+    momentum_svg, pointing_svg, power_svg, sparsity_svg,
 };
 use righting_results::{SOLUTION_FILE, Solution, Trajectory};
 use righting_scenario::{Error, Scenario, WheelArray};
@@ -23,7 +23,7 @@ pub use self::formats::Formats;
 use crate::failure::Failure;
 use crate::output_folder::{
     ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
-    POWER_FIGURE_FILE, SPARSITY_FILE,
+    POINTING_FILE, POWER_FIGURE_FILE, SPARSITY_FILE,
 };
 use crate::{output, plan_folder};
 
@@ -96,6 +96,8 @@ pub fn draw(
     ];
     let clearances = clearances_svg(solution, trajectory, &histories);
     figures.extend(clearances.map(|figure| (CLEARANCES_FILE, figure)));
+    let pointing = pointing_svg(solution, trajectory, &histories);
+    figures.extend(pointing.map(|figure| (POINTING_FILE, figure)));
     figures.extend(convergence_svg(solution).map(|figure| (CONVERGENCE_FILE, figure)));
     if set == FigureSet::All {
         let steps = SPARSITY_STEPS.min(trajectory.steps());

@@ -220,3 +220,51 @@ fn a_folder_that_cannot_take_results_is_refused_before_solving() {
         at("/proc/absent").assert_refused("/proc/absent: cannot hold results");
     }
 }
+
+#[test]
+fn targets_and_cones_that_cannot_be_are_refused_by_name() {
+    let with = |field: &str, value: Value| {
+        let mut scenario = small_slew();
+        scenario[field] = value;
+        scenario
+    };
+    let end = |angles_deg: Value| with("final", json!({ "joint_angles_deg": angles_deg }));
+    let cone = |sun: Value, keep_out_deg: f64| {
+        let tracker = json!({
+            "name": "tracker", "boresight_body": [0, 0, 1],
+            "direction_inertial": sun, "keep_out_deg": keep_out_deg
+        });
+        with("pointing", json!([tracker]))
+    };
+    let attitude = json!({ "type": "slew", "target_attitude": [1, 1, 0, 0] });
+    for (scenario, message) in [
+        (
+            with("maneuver", attitude),
+            "maneuver.target_attitude: found [1, 1, 0, 0], expected a unit quaternion w, x, y, z (this one's norm \
+             is 1.4142135623730951)",
+        ),
+        (
+            end(json!([null])),
+            "final.joint_angles_deg: found an array of 1, expected an array of 2, one a joint",
+        ),
+        (
+            end(json!([null, 91])),
+            "final.joint_angles_deg[1]: found 91, expected -90 to 90, the limits of joint 2",
+        ),
+        (
+            cone(json!([0, 0, 0]), 30.0),
+            "pointing[0].direction_inertial: found [0, 0, 0], expected a vector that is not zero",
+        ),
+        (
+            cone(json!([0, 1, 1]), -30.0),
+            "pointing[0].keep_out_deg: found -30, expected a number above 0 and up to 180",
+        ),
+        (
+            cone(json!([0, 1, 1]), 50.0),
+            "pointing[0].keep_out_deg: found a start 45\u{b0} from the direction of \"tracker\", expected at least \
+             50\u{b0}",
+        ),
+    ] {
+        assert_refused(&scenario, message);
+    }
+}

@@ -41,6 +41,23 @@ fn every_figure_of_a_plan_is_drawn_with_units() {
 }
 
 #[test]
+fn where_instruments_look_is_drawn_with_the_half_angle() {
+    let mut scenario = small_slew();
+    scenario["pointing"] = serde_json::json!([{
+        "name": "tracker", "boresight_body": [0, 0, 1], "direction_inertial": [0, 1, 1], "keep_out_deg": 30
+    }]);
+    let folder = folder_with(&scenario);
+    let run = solve(folder.path());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let figure = std::fs::read_to_string(folder.path().join("out/pointing.svg")).expect("drawn");
+    for text in ["tracker: at least 30° off", "Angle [deg]"] {
+        assert!(figure.contains(text), "{text}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
+    assert!(page.contains("\"half_angle_rad\":0.52359"));
+}
+
+#[test]
 fn a_solve_draws_as_much_as_is_asked() {
     let folder = folder_with(&small_slew());
     let solve = |set: &str| {

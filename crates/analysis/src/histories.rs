@@ -1,12 +1,14 @@
-//! What a trajectory does not hold but follows from it node by node: momentum and clearances.
+//! What a trajectory does not hold but follows from it node by node: momentum, clearances and where instruments
+//! look.
 
 use nalgebra::Vector3;
 use righting_results::trajectory::Trajectory;
+use righting_scenario::ConeSide;
 use righting_scenario::collision::Between;
 use righting_scenario::error::ShapeError;
 use righting_scenario::scenario::Scenario;
 
-/// Momentum and clearances at every node.
+/// Momentum, clearances and angles from cones at every node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histories {
     /// Angular momentum of the system about its center of mass, inertial axes, N m s.
@@ -17,6 +19,21 @@ pub struct Histories {
     pub center_of_mass_m: Vec<Vector3<f64>>,
     /// Every distance that is kept.
     pub clearances: Vec<ClearanceHistory>,
+    /// Every instrument's angle from the axis of its cone.
+    pub pointing: Vec<PointingHistory>,
+}
+
+/// Where an instrument looks over a maneuver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointingHistory {
+    /// Name of instrument and cone.
+    pub name: String,
+    /// The side of the cone that is allowed.
+    pub side: ConeSide,
+    /// Half-angle of the cone, rad.
+    pub half_angle_rad: f64,
+    /// The angle between boresight and axis at every node, rad.
+    pub angles_rad: Vec<f64>,
 }
 
 /// One distance over a maneuver.
@@ -46,6 +63,16 @@ impl Histories {
             arm_momentum_n_m_s: Vec::new(),
             center_of_mass_m: Vec::new(),
             clearances: Vec::new(),
+            pointing: scenario
+                .pointing()
+                .iter()
+                .map(|cone| PointingHistory {
+                    name: cone.name.clone(),
+                    side: cone.side,
+                    half_angle_rad: cone.half_angle_rad,
+                    angles_rad: Vec::new(),
+                })
+                .collect(),
         };
         for node in trajectory.nodes() {
             let state = node.state();
@@ -55,6 +82,9 @@ impl Histories {
             histories.arm_momentum_n_m_s.push(model.h_tilde(angles, rates));
             let center = state.attitude.to_inertial(&model.center_of_mass(angles));
             histories.center_of_mass_m.push(state.position + center);
+            for (history, cone) in histories.pointing.iter_mut().zip(scenario.pointing()) {
+                history.angles_rad.push(cone.angle_rad(&state.attitude, node.time_s));
+            }
             let posture = model.kinematics(angles);
             for (i, clearance) in scenario.collision().clearances(&posture).enumerate() {
                 if i == histories.clearances.len() {

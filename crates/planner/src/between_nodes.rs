@@ -1,6 +1,7 @@
 //! Where a motion passes a limit between its nodes: the planner's own look, so that it can mend it.
 
 mod approach;
+mod cones;
 #[cfg(test)]
 mod tests;
 
@@ -9,8 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use righting_ocp::Samples;
 use righting_scenario::JointLimits;
 
-use crate::formulation::{Clearances, Coordinates, Loads};
+use crate::formulation::{Clearances, Cones, Coordinates, Loads};
 use approach::Approach;
+use cones::PassedCone;
 
 /// How far an angle may be past its limit, rad: nine tenths of what the verifier lets pass, as below.
 const ANGLE_RAD: f64 = 9e-4;
@@ -33,6 +35,8 @@ pub(crate) struct PassedLimits {
     pub(crate) clearances: BTreeMap<usize, PassedClearance>,
     /// Whether a load is.
     pub(crate) has_load: bool,
+    /// Cones on whose wrong side a boresight is, by their place in [`Cones`].
+    pub(crate) cones: BTreeMap<usize, PassedCone>,
 }
 
 /// A clearance that is not kept between nodes.
@@ -46,12 +50,16 @@ pub(crate) struct PassedClearance {
 
 impl PassedLimits {
     pub(crate) fn is_empty(&self) -> bool {
-        self.joints.is_empty() && self.clearances.is_empty() && !self.has_load
+        self.joints.is_empty()
+            && self.clearances.is_empty()
+            && self.cones.is_empty()
+            && !self.has_load
     }
 
-    /// Whether things go through each other.
+    /// Whether things go through each other, or a boresight through a cone.
     pub(crate) fn is_crossing(&self) -> bool {
         self.clearances.values().any(|passed| passed.is_crossing)
+            || self.cones.values().any(|passed| passed.is_crossing)
     }
 }
 
@@ -87,7 +95,7 @@ impl Step<'_> {
 /// `controls`, and `duration` is the length of a step.
 pub(crate) fn passed_limits(
     joint_limits: &[JointLimits],
-    (clearances, loads): (&Clearances, &Loads),
+    (clearances, loads, cones): (&Clearances, &Loads, &Cones),
     coordinates: &Coordinates,
     states: &Samples,
     controls: &Samples,
@@ -116,6 +124,9 @@ pub(crate) fn passed_limits(
             || !loads.is_empty()
                 && loads.largest_share(coordinates, (x, u), duration, LOAD_PARTS)
                     > 1.0 + LOAD_SHARE;
+        if cones.len() > 0 {
+            cones::follow(cones, coordinates, [x, next, u], duration, &mut passed.cones);
+        }
     }
     passed
 }

@@ -35,7 +35,17 @@ pub(crate) struct InitialGuesses<'a> {
 impl InitialGuesses<'_> {
     /// The state held at the start, no control: the paper's guess.
     pub(crate) fn constant(&self) -> InitialGuess {
-        InitialGuess::constant(self.initial, self.scenario.system().joint_count(), self.steps)
+        let joints = self.scenario.system().joint_count();
+        let mut guess = InitialGuess::constant(self.initial, joints, self.steps);
+        for node in 1..=self.steps {
+            self.coordinates.set_time(guess.states.row_mut(node), self.time(node));
+        }
+        guess
+    }
+
+    /// The time of a node.
+    fn time(&self, node: usize) -> f64 {
+        self.scenario.horizon().duration_s * node as f64 / self.steps as f64
     }
 
     /// Low-discrepancy guesses `first`, `first + 1`, … without end; each is the same every time. Every
@@ -80,7 +90,7 @@ impl InitialGuesses<'_> {
         share: f64,
     ) -> InitialGuess {
         let mut guess = InitialGuess { states: states.clone(), controls: controls.clone() };
-        let joints = self.coordinates.joint_angle(0)..self.initial.len();
+        let joints = self.coordinates.joint_states();
         for node in 1..=self.steps {
             let row = &mut guess.states.row_mut(node)[joints.clone()];
             let change =
@@ -140,7 +150,7 @@ impl InitialGuesses<'_> {
             state.attitude = state.attitude.normalized();
             state.joint_angles.iter_mut().zip(&shift).for_each(|(angle, shift)| *angle += shift);
             state.joint_rates.iter_mut().for_each(|rate| *rate *= faster);
-            let row = self.coordinates.of_free_floating_state(&state);
+            let row = self.coordinates.of_free_floating_state(&state, self.time(node));
             guess.states.row_mut(node).copy_from_slice(&row);
         }
         for step in 0..self.steps {

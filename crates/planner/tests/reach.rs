@@ -220,3 +220,28 @@ fn no_clear_posture_has_more_inertia_than_the_bound_says() {
         assert!(inertia <= largest * (1.0 + 1e-6), "{name}: {inertia} {largest}");
     }
 }
+
+#[test]
+fn angles_whose_target_is_outside_a_cone_fail_without_a_solve() {
+    let scenario = varied(&shipped("slew_2dof"), |file| {
+        file.horizon.duration_s = righting_scenario::file::Duration::Given(60.0);
+        file.horizon.steps = 60.0;
+        let axis = nalgebra::Vector3::from(file.maneuver.axis.unwrap()).normalize();
+        let across = axis.cross(&nalgebra::Vector3::x()).normalize();
+        file.pointing = vec![righting_scenario::file::Pointing {
+            name: "camera".to_owned(),
+            boresight_body: across.into(),
+            direction_inertial: Some(across.into()),
+            direction_table: None,
+            keep_out_deg: None,
+            keep_in_deg: Some(23.0),
+        }];
+    });
+    let settings = ReachSettings { resolution: 2.0, ..ReachSettings::new(Quantity::Angle) };
+    let found = searched(&scenario, settings);
+    let (pass, fail) = (found.first_succeeding.unwrap(), found.last_failing.unwrap());
+    assert!(pass <= 23.0 && 23.0 < fail && fail - pass <= 2.0, "{pass} {fail}");
+    let refused = found.tries.iter().find(|tried| tried.value(Quantity::Angle) == fail).unwrap();
+    assert_eq!(refused.iterations, 0);
+    assert!(refused.shortfall.as_ref().unwrap().contains("pointing[0].keep_in_deg"), "{refused:?}");
+}

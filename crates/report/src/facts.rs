@@ -26,12 +26,13 @@ pub(crate) struct UsedLimit {
 }
 
 /// The checks of the plan's own limits; of those made at and between the nodes, the latter.
-const LIMITS: [&str; 5] = [
+const LIMITS: [&str; 6] = [
     "joint angle between nodes",
     "joint rate between nodes",
     "joint acceleration",
     "clearance from body between nodes",
     "clearance between links between nodes",
+    "pointing between nodes",
 ];
 
 /// What the plan reached and what it took, the most important first.
@@ -113,7 +114,10 @@ fn precise(value: f64) -> String {
 
 /// The plan's limits at their worst places.
 pub(crate) fn used_limits(solution: &Solution) -> Vec<UsedLimit> {
-    LIMITS.iter().filter_map(|name| solution.verification.check(name)).map(used_limit).collect()
+    let checks = |name: &'static str| {
+        solution.verification.checks.iter().filter(move |check| check.name == name)
+    };
+    LIMITS.into_iter().flat_map(checks).map(used_limit).collect()
 }
 
 fn used_limit(check: &Check) -> UsedLimit {

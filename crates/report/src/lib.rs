@@ -45,6 +45,7 @@ mod page;
 mod panel;
 #[cfg_attr(not(feature = "png"), path = "no_png.rs")]
 mod png;
+mod pointing;
 mod power;
 mod power_trade;
 mod reach;
@@ -72,6 +73,7 @@ pub use npz::npz;
 pub use number::short;
 pub use open_loop_errors::open_loop_errors_svg;
 pub use page::{report_html, slews_html};
+pub use pointing::pointing_svg;
 pub use power::{PowerComparison, power_svg, power_table};
 pub use power_trade::{PowerTrade, power_trade_svg};
 pub use reach::reach_svg;

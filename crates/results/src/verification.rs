@@ -38,7 +38,7 @@ pub struct Verification {
 pub struct Check {
     /// What was checked.
     pub name: String,
-    /// The joint, link or pair of links, where the check has one: "joint 2", "link 3 and body".
+    /// The joint, link, pair of links or instrument, where the check has one: "joint 2", "link 3 and body".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// The value at the worst place.

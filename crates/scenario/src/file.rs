@@ -4,10 +4,14 @@
 //! file may contain; [`Scenario`](crate::Scenario) is what it means. A *resolved* scenario is one
 //! of these with its system inline and every default filled in: it stands in `solution.json`.
 
+mod pointing;
+
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+pub use pointing::{DirectionTable, Pointing};
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,6 +38,9 @@ pub struct Scenario {
     /// How the end is met.
     #[serde(rename = "final", default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
+    /// Where instruments may look, all the time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pointing: Vec<Pointing>,
     /// Clearances.
     #[serde(default)]
     pub collision: Collision,

@@ -11,6 +11,7 @@ use crate::file::{self, SystemReference};
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
+use crate::pointing::{Pointing, pointing};
 use crate::rounding::{COMPUTED, PRINTED};
 use crate::start_clearance::Start;
 use crate::start_limits::widen_to_start;
@@ -38,6 +39,7 @@ pub struct Scenario {
     pub(crate) weights: Weights,
     pub(crate) is_end_hard: bool,
     pub(crate) end_angles_rad: Vec<Option<f64>>,
+    pub(crate) pointing: Vec<Pointing>,
     pub(crate) collision: CollisionModel,
     pub(crate) solver: SolverSettings,
     pub(crate) resolved: file::Scenario,
@@ -103,6 +105,12 @@ impl Scenario {
         notes.extend(momentum_note);
         let (horizon, free_duration) =
             Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
+        let pointing = pointing(
+            &scenario.pointing,
+            (&initial, &maneuver),
+            (horizon.duration_s, free_duration.is_some()),
+            &place.key("pointing"),
+        )?;
         let weights = Weights::from_file(
             &scenario.weights,
             &maneuver,
@@ -159,6 +167,7 @@ impl Scenario {
             weights,
             is_end_hard,
             end_angles_rad,
+            pointing,
             collision,
             solver,
             resolved,
@@ -235,6 +244,11 @@ impl Scenario {
     /// The angles in which joints shall end, one a joint, rad; none where the joint is free.
     pub fn end_angles_rad(&self) -> &[Option<f64>] {
         &self.end_angles_rad
+    }
+
+    /// The cones that instruments keep out of, or stay in.
+    pub fn pointing(&self) -> &[Pointing] {
+        &self.pointing
     }
 
     /// The joint angles that the weight `joint_angle` asks for at the end, rad: those in which the joints

@@ -6,6 +6,7 @@ use crate::collision::CollisionModel;
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::load_limits::LoadLimits;
+use crate::pointing::Pointing;
 use crate::scenario::{FreeDuration, Horizon, Scenario, Weights};
 use crate::system_description::SystemDescription;
 
@@ -26,6 +27,7 @@ impl Scenario {
             free_duration: self.free_duration.map(|free| free.in_units(units)),
             weights: self.weights.in_units(units, objective_unit),
             collision: self.collision.in_units(units),
+            pointing: self.pointing.iter().map(|cone| cone.in_units(units)).collect(),
             ..self.clone()
         })
     }
@@ -96,6 +98,14 @@ impl Weights {
             joint_angle: of(self.joint_angle, 1.0),
             joint_rate: of(self.joint_rate, 1.0 / time_s),
         }
+    }
+}
+
+impl Pointing {
+    fn in_units(&self, units: &Units) -> Self {
+        let mut measured = self.clone();
+        measured.direction.times_s.iter_mut().for_each(|time| *time /= units.time_s);
+        measured
     }
 }
 

@@ -73,7 +73,8 @@ fn the_start_s_own_attitude_is_a_target() {
 
 #[test]
 fn a_target_of_four_digits_is_taken_with_a_note() {
-    let scenario = to_attitude([1.0, 0.0, 0.0, 0.0], [0.7071, 0.7071, 0.0, 0.0]).unwrap();
+    let half = (0.5_f64.sqrt() * 1e4).round() / 1e4;
+    let scenario = to_attitude([1.0, 0.0, 0.0, 0.0], [half, half, 0.0, 0.0]).unwrap();
     let expected = "maneuver.target_attitude: its norm is 0.99999041: taken as a unit quaternion, for rounding";
     assert_eq!(scenario.notes(), [expected]);
     assert_close(slew(&scenario).angle_rad, std::f64::consts::FRAC_PI_2);

@@ -125,6 +125,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                 horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
                 weights: file::Weights::default(),
                 end: None,
+                pointing: Vec::new(),
                 collision: file::Collision { clearance_m: Some(0.0) },
                 solver: file::Solver::default(),
             };

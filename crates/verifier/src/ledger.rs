@@ -117,11 +117,21 @@ impl Worst {
 impl Ledger {
     /// Enters a check, unless there was nothing to look at. Returns whether it passed.
     pub fn add(&mut self, worst: Worst) -> bool {
+        let subject = worst.place.and_then(|place| place.subject);
+        self.enter(worst, subject.map(|subject| subject.to_string()))
+    }
+
+    /// As [`add`](Self::add), about something that has a name.
+    pub fn add_of(&mut self, worst: Worst, subject: &str) -> bool {
+        self.enter(worst, Some(subject.to_owned()))
+    }
+
+    fn enter(&mut self, worst: Worst, subject: Option<String>) -> bool {
         let Some(place) = worst.place else { return true };
         let passed = place.excess() <= worst.tolerance;
         self.report.checks.push(Check {
             name: worst.name.to_owned(),
-            subject: place.subject.map(|subject| subject.to_string()),
+            subject,
             value: place.value,
             limit: place.limit,
             sense: place.sense,

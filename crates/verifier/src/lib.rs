@@ -16,6 +16,8 @@
 //! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes joint angles and
 //!   clearances to 1e-3. Clearances are looked at as closely as the motion asks for: nothing is
 //!   missed between two places, however fast two links pass each other;
+//! - boresights stay on their side of their cones to 1e-4 rad at the nodes, as far as the attitude may be off,
+//!   and to 1e-3 rad between them, whatever the base may do there at the rate at which it turns;
 //! - the plan's own integration error, one step of a fourth-order method an interval, may reach
 //!   1e-4 rad in attitude, a twentieth of what a slew may miss its target by. In momentum that is
 //!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
@@ -66,6 +68,7 @@ mod limits;
 mod loads;
 pub mod model;
 mod motion_bound;
+mod pointing;
 mod posture;
 mod requirements;
 mod simulation;

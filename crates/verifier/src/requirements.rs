@@ -9,6 +9,7 @@ use crate::goal::Goal;
 use crate::loads::LoadLimits;
 use crate::model::{BaseAcceleration, Model, Motion, State};
 use crate::motion_bound::Reach;
+use crate::pointing::Cone;
 use crate::posture::EndPosture;
 use crate::tolerances::{Measures, Tolerances};
 
@@ -25,6 +26,7 @@ pub(super) struct Requirements {
     pub joint_limits: Vec<JointLimits>,
     pub load_limits: LoadLimits,
     pub clearances: Clearances,
+    pub cones: Vec<Cone>,
     pub reach: Reach,
     pub tolerances: Tolerances,
     pub measures: Measures,
@@ -66,6 +68,7 @@ impl Requirements {
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),
             clearances: Clearances::new(system, clearance_m),
+            cones: file.pointing.iter().map(Cone::new).collect(),
             reach: Reach::new(system),
             model,
             start,

@@ -11,6 +11,7 @@ use crate::ledger::{Ledger, Subject, Worst};
 use crate::limits;
 use crate::loads;
 use crate::model::{BaseAcceleration, Motion, State};
+use crate::pointing;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 use crate::tolerances::{Measures, Tolerances, at_rest_deg_s};
@@ -49,6 +50,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
     loads::check(&asked, trajectory, &simulation, &mut ledger);
+    pointing::check(&asked, trajectory, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     ledger.finish()
 }

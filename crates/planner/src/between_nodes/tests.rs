@@ -6,7 +6,7 @@ use righting_test_support::thin_links::pendulum;
 use righting_test_support::varied;
 
 use super::{PassedLimits, passed_limits};
-use crate::formulation::{Clearances, Coordinates, Loads};
+use crate::formulation::{Clearances, Cones, Coordinates, Loads};
 
 /// What a motion of the joints from the scenario's start passes, one second a step.
 fn passed(scenario: &Scenario, accelerations: &[Vec<f64>]) -> PassedLimits {
@@ -26,7 +26,7 @@ fn passed(scenario: &Scenario, accelerations: &[Vec<f64>]) -> PassedLimits {
         states.push(&state(&angles, &rates));
         controls.push(u);
     }
-    let kept = (&Clearances::new(scenario), &Loads::new(scenario));
+    let kept = (&Clearances::new(scenario), &Loads::new(scenario), &Cones::new(scenario));
     let joint_limits = &scenario.system().joint_limits;
     passed_limits(joint_limits, kept, &coordinates, &states, &controls, 1.0)
 }

@@ -7,6 +7,7 @@ use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;
 
+use super::Cones;
 use super::loads::Moment;
 
 /// The states of the optimal control problem.
@@ -16,8 +17,9 @@ use super::loads::Moment;
 /// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃), r and ṙ from the fixed CM
 /// ```
 ///
-/// Where the duration is free, one more state ends them: ζ, the duration as a share of the longest. It does not
-/// change along the way, and all rates are multiplied by it: the grid is that of the longest duration.
+/// Where the duration is free, one more state follows: ζ, the duration as a share of the longest. It does not
+/// change along the way, and all rates are multiplied by it: the grid is that of the longest duration. Where the
+/// axis of a cone moves, the last state is the time t since the start: ṫ = 1.
 #[derive(Clone)]
 pub(crate) struct Coordinates {
     formulation: Formulation,
@@ -29,6 +31,8 @@ pub(crate) struct Coordinates {
     /// Whether a joint is locked: its control does nothing, and its state stays what it is.
     locked: Arc<[bool]>,
     is_duration_free: bool,
+    /// Whether time is a state.
+    has_time: bool,
 }
 
 impl Coordinates {
@@ -51,6 +55,7 @@ impl Coordinates {
             system,
             locked,
             is_duration_free: scenario.free_duration().is_some(),
+            has_time: Cones::has_moving(scenario),
         }
     }
 
@@ -65,11 +70,28 @@ impl Coordinates {
 
     /// Number of states.
     pub(crate) fn dimension(&self) -> usize {
-        self.joints_end() + usize::from(self.is_duration_free)
+        self.joints_end() + usize::from(self.is_duration_free) + usize::from(self.has_time)
     }
 
     fn joints_end(&self) -> usize {
         self.first_joint_angle() + 2 * self.joints()
+    }
+
+    /// The joint angles and rates among the states.
+    pub(crate) fn joint_states(&self) -> std::ops::Range<usize> {
+        self.joint_angle(0)..self.joints_end()
+    }
+
+    /// The time of a state since the start of the maneuver; zero where it is none of the states.
+    pub(crate) fn time_of<T: Scalar>(&self, x: &[T]) -> T {
+        if self.has_time { x[self.dimension() - 1] } else { T::from(0.0) }
+    }
+
+    /// Sets the time of a state, where it is one of the states.
+    pub(crate) fn set_time(&self, x: &mut [f64], time: f64) {
+        if self.has_time {
+            x[self.dimension() - 1] = time;
+        }
     }
 
     /// Index of ζ among the states, where the duration is free.
@@ -109,7 +131,7 @@ impl Coordinates {
 
     /// Takes the joint angles and rates of one state over into another.
     pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
-        let joints = self.joint_angle(0)..self.joints_end();
+        let joints = self.joint_states();
         to[joints.clone()].copy_from_slice(&from[joints]);
     }
 
@@ -148,11 +170,11 @@ impl Coordinates {
             joint_angles: initial.joint_angles_rad.clone(),
             joint_rates: initial.joint_rates_rad_s.clone(),
         };
-        self.of_free_floating_state(&state)
+        self.of_free_floating_state(&state, 0.0)
     }
 
-    /// The state in these coordinates, of a motion of the longest duration.
-    pub(crate) fn of_free_floating_state(&self, state: &State<f64>) -> Vec<f64> {
+    /// The state at a time in these coordinates, of a motion of the longest duration.
+    pub(crate) fn of_free_floating_state(&self, state: &State<f64>, time: f64) -> Vec<f64> {
         let mut x = match self.formulation {
             Formulation::Full => state.to_vec(),
             Formulation::Reduced => {
@@ -161,11 +183,22 @@ impl Coordinates {
             }
         };
         x.extend(self.is_duration_free.then_some(1.0));
+        x.extend(self.has_time.then_some(time));
         x
     }
 
-    /// ẋ for the joint accelerations `u`.
+    /// ẋ for the joint accelerations `u`, in the time of the grid.
     pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
+        let mut rates = self.rates_in_time(x, u);
+        if let Some(index) = self.duration() {
+            let moving = rates.iter_mut().enumerate().filter(|&(state, _)| state != index);
+            moving.for_each(|(_, rate)| *rate *= x[index]);
+        }
+        rates
+    }
+
+    /// ẋ for the joint accelerations `u`.
+    fn rates_in_time<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         let u = self.accelerations(u);
         let mut rates = match self.formulation {
             Formulation::Full => self.system.state_derivative(&x[..self.joints_end()], &u),
@@ -176,11 +209,34 @@ impl Coordinates {
             }
         };
         if self.is_duration_free {
-            let share = self.duration_share(x);
-            rates.iter_mut().for_each(|rate| *rate *= share);
             rates.push(T::from(0.0));
         }
+        if self.has_time {
+            rates.push(T::from(1.0));
+        }
         rates
+    }
+
+    /// The attitude of a state.
+    pub(crate) fn attitude_of<T: Scalar>(&self, x: &[T]) -> Quaternion<T> {
+        let first = self.attitude().start;
+        Quaternion::from_array(std::array::from_fn(|i| x[first + i]))
+    }
+
+    /// The state a time `after_s` later under constant joint accelerations `u`: one step of the classical
+    /// Runge–Kutta method.
+    pub(crate) fn moved_on<T: Scalar>(&self, x: &[T], u: &[T], after_s: T) -> Vec<T> {
+        let from = |rates: &[T], share: f64| -> Vec<T> {
+            x.iter().zip(rates).map(|(&x, &rate)| x + after_s * share * rate).collect()
+        };
+        let first = self.rates_in_time(x, u);
+        let second = self.rates_in_time(&from(&first, 0.5), u);
+        let third = self.rates_in_time(&from(&second, 0.5), u);
+        let fourth = self.rates_in_time(&from(&third, 1.0), u);
+        let middle = second.iter().zip(&third).map(|(&second, &third)| (second + third) * 2.0);
+        let ends = first.iter().zip(&fourth).map(|(&first, &fourth)| first + fourth);
+        let sums: Vec<T> = middle.zip(ends).map(|(middle, ends)| middle + ends).collect();
+        from(&sums, 1.0 / 6.0)
     }
 
     /// Everything that moves, at state `x`.
@@ -236,11 +292,6 @@ impl Coordinates {
     pub(super) fn accelerations<T: Scalar>(&self, u: &[T]) -> Vec<T> {
         let moving = u.iter().zip(self.locked.iter());
         moving.map(|(&u, &is_locked)| if is_locked { T::from(0.0) } else { u }).collect()
-    }
-
-    fn attitude_of<T: Scalar>(&self, x: &[T]) -> Quaternion<T> {
-        let first = self.attitude().start;
-        Quaternion::from_array(std::array::from_fn(|i| x[first + i]))
     }
 
     fn reduced_angular_rate<T: Scalar>(&self, attitude: &Quaternion<T>, x: &[T]) -> Vector3<T> {

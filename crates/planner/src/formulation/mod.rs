@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! min  Σ_{k<N} w_u (Δt / 0.05 s) ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
-//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps
+//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps, boresights on
+//!      their side of cones
 //! ```
 //!
 //! (the paper's equations 6–14), w_T T where the duration T is free, and q_N as far as the scenario gives the
@@ -10,6 +11,7 @@
 //! where it starts, or ends. Distances are squared: the feasible set is the same, and the square is smooth where
 //! two links meet.
 
+mod cones;
 mod coordinates;
 mod loads;
 mod posture;
@@ -24,6 +26,7 @@ use righting_ocp::{ComponentBounds, ControlProblem};
 use righting_scalar::Scalar;
 use righting_symbolic::{Expr, trace};
 
+pub(crate) use cones::Cones;
 pub(crate) use coordinates::Coordinates;
 pub(crate) use loads::Loads;
 use posture::EndPosture;
@@ -78,10 +81,13 @@ impl FormulatedManeuver {
         let control = weights.control_per_step(scenario.horizon());
         let goal = Goal::of(scenario);
         let clearances = Clearances::new(scenario);
-        let path = coordinates.clone();
+        let cones = Cones::new(scenario);
+        let path = (coordinates.clone(), clearances.clone(), cones.clone());
+        let path_bounds = joined(clearances.bounds(), cones.bounds());
         let loads = Loads::new(scenario);
-        let stage_bounds = stage_limits.bounds(limits, &clearances, &loads);
-        let within = (stage_limits.clone(), coordinates.clone(), clearances.clone(), loads);
+        let stage_bounds = stage_limits.bounds(limits, (&clearances, &loads, &cones));
+        let kept = (clearances, loads, cones);
+        let within = (stage_limits.clone(), coordinates.clone(), kept);
         if let (Some(index), Some(free)) = (coordinates.duration(), scenario.free_duration()) {
             state_bounds.lower[index] = free.shortest_s / scenario.horizon().duration_s;
             state_bounds.upper[index] = 1.0;
@@ -103,13 +109,16 @@ impl FormulatedManeuver {
             })
             .state_bounds(state_bounds)
             .control_bounds(ComponentBounds::symmetric(&accelerations))
-            .path_constraints(clearances.bounds(), move |x| {
-                clearances.squared_distances(path.joint_angles(x))
+            .path_constraints(path_bounds, move |x| {
+                let (coordinates, clearances, cones) = &path;
+                let mut values = clearances.squared_distances(coordinates.joint_angles(x));
+                values.extend(cones.cosines(coordinates, x));
+                values
             })
             .stage_constraints(stage_bounds, move |x, u, h| {
-                let (stage_limits, coordinates, clearances, loads) = &within;
+                let (stage_limits, coordinates, (clearances, loads, cones)) = &within;
                 let h = h * coordinates.duration_share(x);
-                stage_limits.values(coordinates, (clearances, loads), (x, u), h)
+                stage_limits.values(coordinates, (clearances, loads, cones), (x, u), h)
             })
             .terminal_constraints(posture.bounds(), move |x| posture.values(&end, x));
         // The paper transcribes all states, and which ones there are decides where its guess leads.
@@ -274,6 +283,13 @@ impl Clearances {
         let upper = vec![f64::INFINITY; lower.len()];
         ComponentBounds::new(lower, upper)
     }
+}
+
+/// The bounds of some components and those of others after them.
+fn joined(mut first: ComponentBounds, second: ComponentBounds) -> ComponentBounds {
+    first.lower.extend(second.lower);
+    first.upper.extend(second.upper);
+    first
 }
 
 fn sum_of_squares<T: Scalar>(values: &[T]) -> T {

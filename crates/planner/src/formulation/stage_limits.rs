@@ -11,22 +11,23 @@
 //! linear. It asks for up to Δt²/8 |u| more than is needed. So a long step is taken as m curves, one after
 //! the other, with the middle points q(s) + Δt/2m q̇(s) at s = 0, Δt/m, …; these ask for 1/m² of that.
 //!
-//! Distances are stated at places within the step, which x_k and u_k decide alone. So are loads, which have no
-//! other place: see [`Loads`].
+//! Distances and angles from cones are stated at places within the step, which x_k and u_k decide alone: the
+//! posture exactly, the attitude by one Runge–Kutta step to there. So are loads, which have no other place: see
+//! [`Loads`].
 
 use std::collections::BTreeMap;
 
 use righting_ocp::{ComponentBounds, Expr};
 use righting_scenario::JointLimits;
 
-use super::{Clearances, Coordinates, Loads};
+use super::{Clearances, Cones, Coordinates, Loads};
 
 /// By how much more than needed a joint may be kept from its limit, rad …
 const MOST_TOO_MUCH_RAD: f64 = 2e-3;
 /// … if so many curves a step are enough for that.
 const MOST_CURVES: usize = 4;
 
-/// The joints, clearances and loads whose limits are stated within the steps.
+/// The joints, clearances, cones and loads whose limits are stated within the steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StageLimits {
     /// Joints, counted from zero, and the number of curves that each of their steps is taken as.
@@ -34,6 +35,9 @@ pub(crate) struct StageLimits {
     /// Clearances, by their place among those that the joints decide, and the number of equal parts of
     /// a step between which each is stated.
     pub(crate) clearances: BTreeMap<usize, usize>,
+    /// Cones, by their place in the scenario, and the number of equal parts of a step between which each is
+    /// stated.
+    pub(crate) cones: BTreeMap<usize, usize>,
     /// The number of equal parts of a step at whose ends loads are stated.
     pub(crate) load_parts: usize,
 }
@@ -41,7 +45,12 @@ pub(crate) struct StageLimits {
 impl StageLimits {
     /// Those of a problem as it is asked: loads at both ends of every step.
     pub(crate) fn asked() -> Self {
-        Self { joints: BTreeMap::new(), clearances: BTreeMap::new(), load_parts: 1 }
+        Self {
+            joints: BTreeMap::new(),
+            clearances: BTreeMap::new(),
+            cones: BTreeMap::new(),
+            load_parts: 1,
+        }
     }
 
     /// Whether none is stated beyond those asked.
@@ -59,8 +68,7 @@ impl StageLimits {
     pub(super) fn bounds(
         &self,
         joint_limits: &[JointLimits],
-        clearances: &Clearances,
-        loads: &Loads,
+        (clearances, loads, cones): (&Clearances, &Loads, &Cones),
     ) -> ComponentBounds {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for (&joint, &curves) in &self.joints {
@@ -75,16 +83,23 @@ impl StageLimits {
                 upper.push(f64::INFINITY);
             }
         }
+        for (&cone, &parts) in &self.cones {
+            for _ in 1..parts {
+                let (least, most) = cones.bounds_of(cone);
+                lower.push(least);
+                upper.push(most);
+            }
+        }
         let of_loads = loads.bounds(self.load_parts);
         ComponentBounds::new([lower, of_loads.lower].concat(), [upper, of_loads.upper].concat())
     }
 
-    /// The middle control points of the joints' curves, then the squared distances, then the loads within
-    /// a step of length `h`.
+    /// The middle control points of the joints' curves, then the squared distances, then the cosines of the
+    /// angles from cones, then the loads within a step of length `h`.
     pub(super) fn values(
         &self,
         coordinates: &Coordinates,
-        (clearances, loads): (&Clearances, &Loads),
+        (clearances, loads, cones): (&Clearances, &Loads, &Cones),
         (x, u): (&[Expr], &[Expr]),
         h: Expr,
     ) -> Vec<Expr> {
@@ -106,6 +121,12 @@ impl StageLimits {
                 let posture: Vec<Expr> =
                     joints.map(|((&q, &rate), &u)| q + s * (rate + s * 0.5 * u)).collect();
                 values.push(clearances.squared_distance(&posture, clearance));
+            }
+        }
+        for (&cone, &parts) in &self.cones {
+            for part in 1..parts {
+                let there = coordinates.moved_on(x, &u, h * (part as f64 / parts as f64));
+                values.push(cones.cosine(coordinates, &there, cone));
             }
         }
         values.extend(loads.values(coordinates, (x, &u), h, self.load_parts));

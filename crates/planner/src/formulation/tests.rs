@@ -1,10 +1,12 @@
 use std::path::Path;
 
 use righting_ocp::{DerivativeErrors, Grid, MultipleShooting, StageFunctions};
+use righting_scenario::file::{DirectionTable, End, Pointing};
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
+use righting_test_support::varied;
 
-use super::{Clearances, FormulatedManeuver, StageLimits};
+use super::{Clearances, Cones, FormulatedManeuver, StageLimits};
 
 /// The eight maneuvers of Table I.
 const MANEUVERS: [&str; 8] = [
@@ -33,16 +35,20 @@ fn spread(len: usize, seed: usize) -> Vec<f64> {
 }
 
 fn check(name: &str, steps: usize, with_stage_limits: bool) {
-    let scenario = read(name);
+    check_scenario(name, &read(name), steps, with_stage_limits);
+}
+
+fn check_scenario(name: &str, scenario: &Scenario, steps: usize, with_stage_limits: bool) {
     let mut stage_limits = StageLimits::asked();
     if with_stage_limits {
         let joints = 0..scenario.system().joint_count();
         stage_limits.joints.extend(joints.map(|joint| (joint, 1 + joint % 3)));
-        let clearances = 0..Clearances::new(&scenario).len();
+        let clearances = 0..Clearances::new(scenario).len();
         stage_limits.clearances.extend(clearances.map(|place| (place, 2 + place % 2)));
+        stage_limits.cones.extend((0..Cones::new(scenario).len()).map(|place| (place, 2 + place)));
     }
     let formulation = scenario.solver().formulation;
-    let formulated = FormulatedManeuver::in_form(&scenario, formulation, &stage_limits);
+    let formulated = FormulatedManeuver::in_form(scenario, formulation, &stage_limits);
     let functions = StageFunctions::compile(&formulated.problem).unwrap();
     let grid = Grid::new(0.05 * steps as f64, steps).unwrap();
     let mut program = MultipleShooting::new(&functions, grid, &formulated.initial).unwrap();
@@ -75,6 +81,41 @@ fn derivatives_of_every_maneuver_agree_with_finite_differences() {
             }
             check(&format!("{name}{suffix}"), 5, true);
         }
+    }
+}
+
+/// A fixed cone and a moving one, and a posture at the end.
+#[test]
+fn derivatives_of_cones_and_postures_agree_with_finite_differences() {
+    for name in ["slew_4dof", "detumble_2dof_full"] {
+        let scenario = varied(&read(name), |file| {
+            let fixed = Pointing {
+                name: "fixed".to_owned(),
+                boresight_body: [1.0, 0.2, -0.3],
+                direction_inertial: Some([-1.0, 0.5, 0.2]),
+                direction_table: None,
+                keep_out_deg: Some(30.0),
+                keep_in_deg: None,
+            };
+            let table = DirectionTable {
+                t_s: vec![-1.0, 0.1, 12.0, 60.0],
+                vectors: vec![[0.0, 0.0, 1.0], [0.0, 0.5, 1.0], [0.5, 0.5, 0.7], [1.0, 0.0, 0.5]],
+            };
+            let moving = Pointing {
+                name: "moving".to_owned(),
+                direction_inertial: None,
+                direction_table: Some(table),
+                keep_out_deg: None,
+                keep_in_deg: Some(170.0),
+                ..fixed.clone()
+            };
+            file.pointing = vec![fixed, moving];
+            let mut angles = vec![None; file.initial.joint_angles_deg.len()];
+            angles[1] = Some(12.0);
+            file.end = Some(End { hard: None, joint_angles_deg: Some(angles) });
+        });
+        check_scenario(name, &scenario, 5, false);
+        check_scenario(name, &scenario, 5, true);
     }
 }
 

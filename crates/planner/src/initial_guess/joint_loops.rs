@@ -141,7 +141,7 @@ impl InitialGuesses<'_> {
             let turned = 0.5 * (1.0 - (PI * node as f64 / self.steps as f64).cos());
             let mut state = self.coordinates.free_floating_state(guess.states.row(node));
             state.attitude = start.product(&Quaternion::from_axis_angle(axis, angle_rad * turned));
-            let row = self.coordinates.of_free_floating_state(&state);
+            let row = self.coordinates.of_free_floating_state(&state, self.time(node));
             guess.states.row_mut(node).copy_from_slice(&row);
         }
         guess

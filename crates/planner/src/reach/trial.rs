@@ -52,12 +52,20 @@ impl<'a> Trials<'a> {
     /// Whether the maneuver with this duration, s, or angle, deg, succeeds; none if the caller
     /// stopped its solve.
     pub(super) fn attempt(&mut self, value: f64) -> Result<Option<bool>, ReachError> {
-        let scenario = self.variant(value)?;
+        let scenario = match self.variant(value) {
+            Ok(scenario) => scenario,
+            // What is asked is a scenario; another value need not be one: its target may be inside a cone.
+            Err(refused) if !self.tries.is_empty() => {
+                let shortfall = format!("refused: {refused}");
+                self.fails_unsolved(not_solved(self.scenario, self.settings, value, shortfall));
+                return Ok(Some(false));
+            }
+            Err(refused) => return Err(refused),
+        };
         if let Some(reason) = Impossible::of(&scenario) {
-            let control = (self.watch)(Progress::Tried(&impossible(&scenario, &reason)));
-            self.tries.push(impossible(&scenario, &reason));
+            let shortfall = format!("impossible: {reason}");
+            self.fails_unsolved(not_solved(&scenario, self.settings, value, shortfall));
             self.impossible.push(reason);
-            self.is_interrupted |= control == Control::Stop;
             return Ok(Some(false));
         }
         let neighbor = self.successes.last().map(|(value, _)| *value);
@@ -144,6 +152,13 @@ impl<'a> Trials<'a> {
                 file.maneuver.angle_deg = asked.map(|(_, angle_deg)| value.copysign(angle_deg));
             }
         })?)
+    }
+
+    /// Takes down a try that need not be solved to be known to fail.
+    fn fails_unsolved(&mut self, tried: Try) {
+        let control = (self.watch)(Progress::Tried(&tried));
+        self.tries.push(tried);
+        self.is_interrupted |= control == Control::Stop;
     }
 
     fn solve(
@@ -239,12 +254,19 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// The try of a maneuver that need not be solved to be known to fail.
-fn impossible(scenario: &Scenario, reason: &Impossible) -> Try {
+/// The try of a variant of a scenario that need not be solved to be known to fail.
+fn not_solved(scenario: &Scenario, settings: ReachSettings, value: f64, shortfall: String) -> Try {
     let unknown = f64::NAN;
+    let (duration_s, angle_deg) = match settings.quantity {
+        Quantity::Duration => (value, angle_deg(scenario)),
+        Quantity::Angle => {
+            let signed = |asked: f64| value.copysign(asked);
+            (scenario.horizon().duration_s, angle_deg(scenario).map(signed))
+        }
+    };
     Try {
-        duration_s: scenario.horizon().duration_s,
-        angle_deg: angle_deg(scenario),
+        duration_s,
+        angle_deg,
         succeeded: false,
         is_verified: false,
         status: Status::Infeasible,
@@ -258,7 +280,7 @@ fn impossible(scenario: &Scenario, reason: &Impossible) -> Try {
             angular_rate_deg_s: unknown,
             joint_rate_deg_s: unknown,
         },
-        shortfall: Some(format!("impossible: {reason}")),
+        shortfall: Some(shortfall),
     }
 }
 

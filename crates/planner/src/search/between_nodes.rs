@@ -9,7 +9,7 @@ use crate::formulation::StageLimits;
 
 /// How often limits are added, at most.
 const ROUNDS: usize = 4;
-/// Parts of a step between which a clearance is stated, at most.
+/// Parts of a step between which a clearance or a cone is stated, at most.
 const MOST_PARTS: usize = 24;
 /// Parts of a step at whose ends loads are stated, at most.
 const MOST_LOAD_PARTS: usize = 8;
@@ -78,7 +78,7 @@ impl Search<'_> {
         let OcpSolution { states, controls, .. } = solution;
         let Model { coordinates, .. } = model;
         let step_s = grid.step_s() * coordinates.duration_share(states.row(0));
-        let kept = (&self.clearances, &self.loads);
+        let kept = (&self.clearances, &self.loads, &self.cones);
         passed_limits(joint_limits, kept, coordinates, states, controls, step_s)
     }
 
@@ -98,6 +98,10 @@ impl Search<'_> {
         }
         for (&place, passed) in &passed.clearances {
             let stated = limits.clearances.entry(place).or_insert(1);
+            *stated = passed.parts.max(2 * *stated).min(MOST_PARTS);
+        }
+        for (&place, passed) in &passed.cones {
+            let stated = limits.cones.entry(place).or_insert(1);
             *stated = passed.parts.max(2 * *stated).min(MOST_PARTS);
         }
         if passed.has_load {
@@ -202,17 +206,23 @@ impl Search<'_> {
     fn stated_within_steps(&self) -> String {
         let limits = &self.stage_limits;
         let joints = limits.joints.keys().map(|joint| format!("the angle of joint {}", joint + 1));
+        let at_places = |parts: usize| {
+            let places = if parts == 2 { "place" } else { "places" };
+            format!("(at {} {places} in every step)", parts - 1)
+        };
         let distances = limits.clearances.iter().map(|(&place, &parts)| {
             let between = self.clearances.between(place);
-            let places = if parts == 2 { "place" } else { "places" };
-            format!("the clearance of {between} (at {} {places} in every step)", parts - 1)
+            format!("the clearance of {between} {}", at_places(parts))
+        });
+        let cones = limits.cones.iter().map(|(&place, &parts)| {
+            format!("the cone of \"{}\" {}", self.cones.get(place).name, at_places(parts))
         });
         let places = limits.load_parts - 1;
         let loads = (places > 0).then(|| {
             let ends = if places == 1 { "a place" } else { "places" };
             format!("loads (at {ends} between the ends of every step)")
         });
-        let stated: Vec<String> = joints.chain(distances).chain(loads).collect();
+        let stated: Vec<String> = joints.chain(distances).chain(cones).chain(loads).collect();
         stated.join(", ")
     }
 }

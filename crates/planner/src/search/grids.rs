@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 
 use righting_ocp::{Grid, OcpError};
-use righting_scenario::scenario::{Horizon, Scenario};
+use righting_scenario::ConeSide;
+use righting_scenario::scenario::{Horizon, Maneuver, Scenario};
 
 use crate::spin::beginning_s;
 
@@ -13,6 +14,9 @@ const COARSE_STEPS: usize = 20;
 /// A long maneuver takes more of them: so far may the fastest joint turn in one, rad. Beyond that the
 /// steps integrate so poorly that the order of the optima changes.
 const COARSE_TURN_RAD: f64 = 0.46;
+/// A cone that a boresight keeps out of is not stepped over: so many steps, at the least, go to a turn by its
+/// half-angle, were the base to turn evenly to the target.
+const STEPS_A_HALF_ANGLE: f64 = 4.0;
 /// But no more than these.
 const MOST_COARSE_STEPS: usize = 120;
 /// So far may a base that turns by itself turn in a step, rad: the same of a motion that never rests.
@@ -43,8 +47,9 @@ impl Ranking {
         let Horizon { duration_s, steps } = scenario.horizon();
         let rates = scenario.system().joint_limits.iter().map(|limits| limits.rate_max_rad_s);
         let turn_rad = duration_s * rates.fold(0.0, f64::max);
-        let for_joints =
-            ((turn_rad / COARSE_TURN_RAD).ceil() as usize).clamp(COARSE_STEPS, MOST_COARSE_STEPS);
+        let for_joints = ((turn_rad / COARSE_TURN_RAD).ceil() as usize)
+            .max(steps_for_cones(scenario))
+            .clamp(COARSE_STEPS, MOST_COARSE_STEPS);
         let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
         let for_spin = (spin_rad / COARSE_SPIN_RAD).ceil() as usize;
         if beginning_s(scenario) >= duration_s * (1.0 - 1e-9) {
@@ -77,6 +82,15 @@ impl Ranking {
         let duration_s = scenario.horizon().step_s() * self.asked_steps as f64;
         scenario.clone().with_horizon(Horizon { duration_s, steps: self.steps })
     }
+}
+
+/// How many steps the cones ask for.
+fn steps_for_cones(scenario: &Scenario) -> usize {
+    let Maneuver::Slew(slew) = scenario.maneuver() else { return 0 };
+    let outside = scenario.pointing().iter().filter(|cone| cone.side == ConeSide::Outside);
+    let half_angles = outside.map(|cone| cone.half_angle_rad);
+    let narrowest_rad = half_angles.fold(f64::INFINITY, f64::min);
+    (STEPS_A_HALF_ANGLE * slew.angle_rad.abs() / narrowest_rad).ceil() as usize
 }
 
 /// How many Runge–Kutta steps each of `steps` steps takes where so many are needed in all.

@@ -36,7 +36,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::Scenario;
 
-use crate::formulation::{Clearances, Coordinates, Loads, StageLimits};
+use crate::formulation::{Clearances, Cones, Coordinates, Loads, StageLimits};
 use batch::Batch;
 use grids::Ranking;
 use model::Model;
@@ -57,6 +57,8 @@ pub(crate) struct Search<'a> {
     clearances: Clearances,
     /// What joints, mount and base bear.
     loads: Loads,
+    /// The cones of the instruments.
+    cones: Cones,
     /// The asked grid.
     grid: Grid,
     /// What guesses are ranked on.
@@ -129,6 +131,7 @@ impl<'a> Search<'a> {
             stage_limits,
             clearances: Clearances::new(scenario),
             loads: Loads::new(scenario),
+            cones: Cones::new(scenario),
             ranking,
             ranked: ranking.scenario(scenario),
             grid: Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?,

@@ -160,7 +160,8 @@ impl Model {
         let mut states = Samples::new(self.coordinates.dimension());
         for row in motion.rows() {
             let state = other.coordinates.free_floating_state(row);
-            states.push(&self.coordinates.of_free_floating_state(&state));
+            let time = other.coordinates.time_of(row);
+            states.push(&self.coordinates.of_free_floating_state(&state, time));
         }
         InitialGuess { states, controls: controls.clone() }
     }
