@@ -1,4 +1,4 @@
-/*! Generated from sources a1c63ed488ccb78ddf6fd2fe60398717ddda03ec0697f4bd4407da52cbc455ad */
+/*! Generated from sources 9e39f54520622bff5d55d47a1acbd8bf018d1e8b11a40426c06e210a858b5409 */
 /*!
 three
 

@@ -11,6 +11,7 @@ export interface ReportData {
   checks: string[][];
   made_by: string;
   spacecraft: Spacecraft;
+  cones: ConeData[];
   /** Attitude a slew is to reach, scalar first, body to inertial. */
   target_attitude: [number, number, number, number] | null;
   bound_deg_s: number | null;
@@ -18,6 +19,17 @@ export interface ReportData {
   /** Every so many nodes of the plan are in the columns, and the last. */
   stride: number;
   columns: Record<ColumnName, string>;
+}
+
+/** An instrument and the cone that its boresight keeps out of, or stays in. */
+export interface ConeData {
+  name: string;
+  is_inside: boolean;
+  half_angle_rad: number;
+  /** Unit vector, body axes. */
+  boresight_body: [number, number, number];
+  /** The cone's axis at each node, a column of unit vectors; inertial axes. */
+  axes: string;
 }
 
 export interface Fact {

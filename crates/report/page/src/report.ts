@@ -61,6 +61,7 @@ function connectStage(stage: Stage): void {
     stage.setBoresight(Number(boresight.value));
   });
   byId("target").hidden = data.target_attitude === null;
+  byId("cones").hidden = data.cones.length === 0;
   byId("total-row").hidden = Math.hypot(...data.spacecraft.momentum_n_m_s) === 0;
 }
 

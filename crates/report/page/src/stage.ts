@@ -1,4 +1,5 @@
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
+import { Cone } from "./cone";
 import type { ReportData } from "./data";
 import { fromScalarFirst, type Motion } from "./motion";
 import { Arrow, centerMark, graticule, keepOut, Trail, triad } from "./overlays";
@@ -7,7 +8,7 @@ import { ghost, SpacecraftModel } from "./spacecraft";
 import { AXIS_COLORS } from "./theme";
 import { Viewport } from "./viewport";
 
-export const LAYERS = ["boresight", "momentum", "keep-out", "ghosts", "axes", "sky"] as const;
+export const LAYERS = ["boresight", "momentum", "keep-out", "cones", "ghosts", "axes", "sky"] as const;
 export type Layer = (typeof LAYERS)[number];
 export type FrameName = "inertial" | "body";
 
@@ -32,6 +33,7 @@ export class Stage {
   private readonly sky = new Group();
   private readonly spacecraft: SpacecraftModel;
   private readonly layers: Record<Layer, Group[]>;
+  private readonly cones: Cone[];
   private readonly trails: Trail[];
   private readonly rays: Group[];
   private readonly arrows: Record<(typeof ARROWS)[number], Arrow>;
@@ -57,6 +59,7 @@ export class Stage {
     const center = centerMark(0.06 * this.reach);
     center.position.fromArray(spacecraft.center_of_mass_m);
 
+    this.cones = data.cones.map((cone) => new Cone(cone, this.skyRadius, motion));
     this.trails = BODY_AXES.map((_, i) => this.trail(i));
     this.rays = BODY_AXES.map((axis, i) => {
       const ray = new Group();
@@ -75,15 +78,15 @@ export class Stage {
     const ghosts = this.ghosts();
     const trails = this.trails.map((trail) => trail.group);
     const arrows = ARROWS.map((name) => this.arrows[name].group);
-    body.add(bodyTriad, sphere, ...this.rays);
-    this.sky.add(inertialTriad, lines, ...trails);
+    body.add(bodyTriad, sphere, ...this.rays, ...this.cones.map((cone) => cone.ray));
+    this.sky.add(inertialTriad, lines, ...trails, ...this.cones.map((cone) => cone.group));
     const momentum = new Group();
     momentum.add(...arrows);
     this.space.add(body, this.sky, momentum, center, ...ghosts);
     this.viewport.scene.add(this.space);
     this.layers = {
       boresight: [], momentum: [momentum, center], "keep-out": [sphere], ghosts,
-      axes: [bodyTriad, inertialTriad], sky: [lines],
+      cones: this.cones.flatMap((cone) => [cone.group, cone.ray]), axes: [bodyTriad, inertialTriad], sky: [lines],
     };
     this.setBoresight(0);
     this.setFrame("inertial");
@@ -103,7 +106,9 @@ export class Stage {
       this.arrows[name].point(momenta[name].multiplyScalar(this.momentumScale));
     }
     const { k, share } = motion.locate(time);
-    for (const trail of this.trails) trail.upTo(share === 1 ? k + 1 : k);
+    const past = share === 1 ? k + 1 : k;
+    for (const trail of this.trails) trail.upTo(past);
+    for (const cone of this.cones) cone.show(k, share, past);
     this.placeSpace();
     this.viewport.requestDraw();
   }

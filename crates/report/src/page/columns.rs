@@ -12,7 +12,7 @@ const MOST_INTERVALS: usize = 1000;
 
 /// A column: little-endian `f32`, all numbers of a node together, in base64. It is a quarter of the
 /// same numbers in decimal, and finer than a pixel.
-type Column = String;
+pub(super) type Column = String;
 
 /// What the page shows of each node; a column that the plan has no numbers for is empty.
 ///
@@ -44,12 +44,18 @@ pub(super) fn stride(trajectory: &Trajectory) -> usize {
     trajectory.steps().div_ceil(MOST_INTERVALS)
 }
 
+/// The nodes that are shown: every so many, and the last.
+pub(super) fn shown(trajectory: &Trajectory) -> Vec<usize> {
+    let steps = trajectory.steps();
+    let mut shown: Vec<usize> = (0..steps).step_by(stride(trajectory)).collect();
+    shown.push(steps);
+    shown
+}
+
 impl Columns {
     /// Computes where everything is at the nodes shown.
     pub fn new(scenario: &Scenario, trajectory: &Trajectory) -> Self {
-        let steps = trajectory.steps();
-        let mut shown: Vec<usize> = (0..steps).step_by(stride(trajectory)).collect();
-        shown.push(steps);
+        let shown = shown(trajectory);
         let nodes: Vec<&Node> = shown.iter().map(|&k| &trajectory.nodes()[k]).collect();
         let model = &scenario.system().model;
         let postures: Vec<Kinematics<f64>> =
@@ -112,7 +118,7 @@ fn clearances(scenario: &Scenario, postures: &[Kinematics<f64>]) -> [Column; 2] 
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the page draws in single precision")]
-fn encoded(values: impl IntoIterator<Item = f64>) -> Column {
+pub(super) fn encoded(values: impl IntoIterator<Item = f64>) -> Column {
     let bytes: Vec<u8> =
         values.into_iter().flat_map(|value| (value as f32).to_le_bytes()).collect();
     STANDARD.encode(bytes)

@@ -6,7 +6,8 @@ use righting_results::{Solution, Trajectory, UsedOptimizer};
 use righting_scenario::{Maneuver, Scenario, SystemDescription};
 use serde::Serialize;
 
-use super::columns::{Columns, stride};
+use super::columns::{Columns, shown, stride};
+use super::cones::{Cone, cones};
 use crate::asked;
 use crate::facts::{Fact, UsedLimit, facts, used_limits};
 use crate::summary::{check_rows, verdict};
@@ -25,6 +26,7 @@ pub(super) struct PageData<'a> {
     checks: Vec<[String; 6]>,
     made_by: String,
     spacecraft: Spacecraft,
+    cones: Vec<Cone>,
     target_attitude: Option<[f64; 4]>,
     bound_deg_s: Option<f64>,
     steps: usize,
@@ -92,6 +94,10 @@ impl<'a> PageData<'a> {
                 versions.linear_solver
             ),
             spacecraft: Spacecraft::new(scenario, trajectory),
+            cones: {
+                let nodes = shown(trajectory).into_iter().map(|k| &trajectory.nodes()[k]);
+                cones(scenario, &nodes.collect::<Vec<_>>())
+            },
             target_attitude,
             bound_deg_s: solution.bound_deg_s,
             steps: trajectory.steps(),

@@ -1,6 +1,7 @@
 //! `report.html`, the maneuver to look at, and `slews.html`, a sweep: files that need nothing else.
 
 mod columns;
+mod cones;
 mod data;
 mod slews;
 
