@@ -28,6 +28,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod bodies;
 pub mod collision;
 pub mod error;
 pub mod file;
@@ -35,6 +36,7 @@ pub mod file_io;
 pub mod file_kind;
 pub mod halton;
 mod horizon;
+pub mod ignored_pairs;
 mod inertias;
 pub mod initial;
 pub mod joint_limits;
