@@ -153,7 +153,7 @@ fn what_is_missing_unknown_or_twice_is_named() {
     let message = "maneuver.axis: missing, expected the axis of the slew";
     assert_refused(&without("/maneuver", "axis"), message);
     let message = "system.base.cube_side_m: missing, expected the side of a cube, or inertia_kg_m2 \
-                   with keep_out_radius_m";
+                   with keep_out_radius_m or keep_out";
     assert_refused(&without("/system/base", "cube_side_m"), message);
     let mut scenario = small_slew();
     scenario["horizon"]["qqq"] = json!(3);

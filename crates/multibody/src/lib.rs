@@ -82,7 +82,9 @@ mod attitude;
 mod chain;
 mod clearance;
 mod composite;
+mod core;
 mod coupling;
+mod cuboid;
 mod distance;
 mod dynamics;
 mod error;
@@ -101,6 +103,8 @@ mod turn;
 mod units;
 
 pub use attitude::Quaternion;
+pub use core::Core;
+pub use cuboid::Cuboid;
 pub use distance::Segment;
 pub use dynamics::BaseAcceleration;
 pub use error::{ModelError, Part};

@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use num_dual::HyperDual64;
 use proptest::prelude::*;
-use righting_multibody::Segment;
+use righting_multibody::{Core, Segment};
 use righting_scalar::Scalar;
 use support::random;
 
@@ -185,13 +185,51 @@ proptest! {
         let segments = system.kinematics(q).segments;
         for (a, segment) in segments.iter().enumerate() {
             let expected = segment.squared_distance_to_point(&Vector3::zeros());
-            let squared = system.squared_distance_to_base(q, a);
+            let squared = system.squared_distance_to_point(q, &Core::Link(a), &Vector3::zeros());
             prop_assert!((squared - expected).abs() < 1e-12, "{} {}", squared, expected);
             for (b, other) in segments.iter().enumerate() {
                 let expected = segment.squared_distance_to_segment(other);
-                let squared = system.squared_distance_between(q, a, b);
+                let squared = system.squared_distance_between(q, &Core::Link(a), &Core::Link(b));
                 prop_assert!((squared - expected).abs() < 2e-11, "{} {}", squared, expected);
             }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    /// Wherever cores are on the arm, all ways lead to the same number, and reach is what it says.
+    #[test]
+    fn cores(
+        (system, state, _) in random::motion(),
+        seeds in [0..1000_usize, 0..1000],
+        [from_m, to_m, a, b] in [point(1.0), point(1.0), point(0.5), point(0.5)],
+    ) {
+        let q = &state.joint_angles;
+        let posture = system.kinematics(q);
+        let frames = posture.frames.len();
+        let core = |seed: usize, shift: Vector3<f64>| match (seed % frames, seed % 2) {
+            (frame, 0) if frame + 1 < frames => Core::Link(frame),
+            (frame, _) => Core::InFrame { frame, from_m: shift, to_m: a - shift },
+        };
+        let cores = [core(seeds[0], a), core(seeds[1], b)];
+        let [first, second] = cores.map(|core| posture.core(&core));
+        let expected = first.squared_distance_to_segment(&second);
+        let squared = system.squared_distance_between(q, &cores[0], &cores[1]);
+        prop_assert!((squared - expected).abs() < 5e-11, "{} {}", squared, expected);
+        let expected = first.squared_distance_to_segment(&Segment::new(from_m, to_m));
+        let squared = system.squared_distance_to_segment(q, &cores[0], &[from_m, to_m]);
+        prop_assert!((squared - expected).abs() < 5e-11, "{} {}", squared, expected);
+        let expected = first.squared_distance_to_point(&from_m);
+        let squared = system.squared_distance_to_point(q, &cores[0], &from_m);
+        prop_assert!((squared - expected).abs() < 1e-12, "{} {}", squared, expected);
+        let reach_m = system.reach_m(&cores[0]);
+        prop_assert_eq!(reach_m.len(), system.joints_moving(&cores[0]));
+        for (joint, reach_m) in reach_m.iter().enumerate() {
+            let origin = posture.joint_origins[joint];
+            let farthest_m = (first.start - origin).norm().max((first.end() - origin).norm());
+            prop_assert!(farthest_m < reach_m + 1e-12, "{} {}", farthest_m, reach_m);
         }
     }
 }

@@ -3,7 +3,7 @@
 mod support;
 
 use nalgebra::Vector3;
-use righting_multibody::{Quaternion, System};
+use righting_multibody::{Core, Cuboid, Quaternion, System};
 use righting_scalar::Scalar;
 use righting_symbolic::{Expr, Function, hessian_lower, jacobian, trace};
 use support::{assert_near, table_one};
@@ -63,19 +63,38 @@ fn torques<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
 fn distances<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let links = 0..system.joint_count();
     let long: Vec<usize> = links.filter(|&i| system.links()[i].length_m() > 0.0).collect();
-    let to_base = long.iter().map(|&a| system.squared_distance_to_base(y, a));
+    let to_base = long
+        .iter()
+        .map(|&a| system.squared_distance_to_point(y, &Core::Link(a), &Vector3::zeros()));
     let pairs = long.iter().flat_map(|&a| long.iter().map(move |&b| (a, b)));
     let apart = pairs.filter(|&(a, b)| a < b && system.length_between_m(a, b) > 0.0);
-    to_base.chain(apart.map(|(a, b)| system.squared_distance_between(y, a, b))).collect()
+    to_base
+        .chain(
+            apart.map(|(a, b)| system.squared_distance_between(y, &Core::Link(a), &Core::Link(b))),
+        )
+        .collect()
 }
 
-const MODELS: [Model; 6] = [
+/// y = q: the distance of every link with length from a box.
+fn box_distances<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
+    let cuboid =
+        Cuboid { center_m: Vector3::new(0.1, -0.4, 0.3), half_m: Vector3::new(0.02, 0.5, 0.3) };
+    let posture = system.kinematics(y);
+    let links = 0..system.joint_count();
+    links
+        .filter(|&i| system.links()[i].length_m() > 0.0)
+        .map(|link| cuboid.signed_distance(&posture.core(&Core::Link(link))))
+        .collect()
+}
+
+const MODELS: [Model; 7] = [
     ("reduced rate", |s| 2 * s.joint_count(), traced!(reduced_rate)),
     ("attitude rate", |s| 4 + 2 * s.joint_count(), traced!(attitude_rate)),
     ("base acceleration", |s| 3 + 3 * s.joint_count(), traced!(base_acceleration)),
     ("state derivative", |s| 13 + 3 * s.joint_count(), traced!(state_derivative)),
     ("torques", |s| 3 + 3 * s.joint_count(), traced!(torques)),
     ("distances", |s| s.joint_count(), traced!(distances)),
+    ("box distances", |s| s.joint_count(), traced!(box_distances)),
 ];
 
 #[test]
@@ -124,22 +143,46 @@ fn operations(system: &System, (_, size, traced): &Model) -> (usize, usize) {
 /// expressions simplify; whoever needs more has made the model slower.
 #[test]
 fn operations_stay_what_they_were() {
-    let measured: [(&str, [(usize, usize); 6]); 4] = [
+    let measured: [(&str, [(usize, usize); 7]); 4] = [
         (
             "single_link_2dof",
-            [(42, 300), (105, 1730), (115, 1545), (206, 3513), (201, 2438), (10, 44)],
+            [(42, 300), (105, 1730), (115, 1545), (206, 3513), (201, 2438), (10, 44), (367, 1680)],
         ),
         (
             "xlink_4dof",
-            [(110, 1587), (172, 3118), (267, 4397), (367, 7818), (549, 9301), (187, 2478)],
+            [
+                (110, 1587),
+                (172, 3118),
+                (267, 4397),
+                (367, 7818),
+                (549, 9301),
+                (187, 2478),
+                (1145, 7369),
+            ],
         ),
         (
             "canadarm2_table",
-            [(201, 3126), (262, 4977), (445, 8395), (551, 13933), (920, 21259), (319, 4564)],
+            [
+                (201, 3126),
+                (262, 4977),
+                (445, 8395),
+                (551, 13933),
+                (920, 21259),
+                (319, 4564),
+                (1410, 9693),
+            ],
         ),
         (
             "canadarm2",
-            [(222, 3998), (283, 6009), (460, 9029), (568, 14666), (897, 21167), (256, 2962)],
+            [
+                (222, 3998),
+                (283, 6009),
+                (460, 9029),
+                (568, 14666),
+                (897, 21167),
+                (256, 2962),
+                (1798, 13149),
+            ],
         ),
     ];
     for ((name, system), (known, measured)) in table_one::all().iter().zip(measured) {

@@ -84,6 +84,7 @@ impl ThinLinks {
                 inertia_kg_m2: Some([[4.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 6.0]]),
                 keep_out_radius_m: Some(0.2),
                 angular_rate_max_deg_s: None,
+                keep_out: None,
             };
             file.initial.joint_angles_deg = self.joint_angles_deg.to_vec();
             file.maneuver.axis = Some(self.axis);

@@ -3,6 +3,7 @@
 use righting_analysis::Histories;
 use righting_analysis::histories::ClearanceHistory;
 use righting_results::{Solution, Trajectory};
+use righting_scenario::bodies::{ArmPart, Piece};
 use righting_scenario::collision::Between;
 
 use crate::figure::{Figure, heading};
@@ -17,7 +18,8 @@ const LEAST_SPAN_M: f64 = 1e-6;
 const MOST_CURVES: usize = 7;
 
 /// The figure of all distances that are kept, as an SVG document: links from the base's center with
-/// the keep-out radius, and links from each other with the clearance; none where none is kept.
+/// the keep-out radius, from the shapes of the base and from each other with the clearance; none where none
+/// is kept.
 pub fn clearances_svg(
     solution: &Solution,
     trajectory: &Trajectory,
@@ -26,9 +28,14 @@ pub fn clearances_svg(
     if histories.clearances.is_empty() {
         return None;
     }
-    let is_body = |history: &&ClearanceHistory| matches!(history.between, Between::LinkAndBody(_));
-    let (body, links): (Vec<_>, Vec<_>) = histories.clearances.iter().partition(is_body);
-    let panels = [("Links from the base's center", body), ("Links from each other", links)];
+    let of = |is_one: fn(&Between) -> bool| -> Vec<&ClearanceHistory> {
+        histories.clearances.iter().filter(|history| is_one(&history.between)).collect()
+    };
+    let panels = [
+        ("Links from the base's center", of(|between| matches!(between, Between::Body(_)))),
+        ("Links from base shapes", of(|between| matches!(between, Between::KeepOut(..)))),
+        ("Links from each other", of(|between| matches!(between, Between::Pieces(..)))),
+    ];
     let panels = panels
         .into_iter()
         .filter(|(_, histories)| !histories.is_empty())
@@ -58,8 +65,7 @@ fn panel(heading: &str, mut histories: Vec<&ClearanceHistory>) -> Panel {
         name: short_name(history.between),
         ..Curve::plain(style::SERIES[i], history.distances_m.clone())
     };
-    let more =
-        if left_out > 0 { format!(" ({left_out} farther not shown)") } else { String::new() };
+    let more = if left_out > 0 { format!(" ({left_out} farther)") } else { String::new() };
     Panel {
         heading: format!("{heading}{more}"),
         axis_label: "Distance [m]",
@@ -78,9 +84,19 @@ fn panel(heading: &str, mut histories: Vec<&ClearanceHistory>) -> Panel {
     }
 }
 
+/// Such as "2", "2–4" for links, "2–1" for link 2 and shape 1 of the base; "2.1" is a shape of link 2, "P" the
+/// payload.
 fn short_name(between: Between) -> String {
+    let short = |piece: Piece| {
+        let part = match piece.part {
+            ArmPart::Link(link) => (link + 1).to_string(),
+            ArmPart::Payload => "P".to_owned(),
+        };
+        piece.shape.map_or(part.clone(), |shape| format!("{part}.{}", shape + 1))
+    };
     match between {
-        Between::LinkAndBody(link) => format!("link {}", link + 1),
-        Between::Links(a, b) => format!("{}\u{2013}{}", a + 1, b + 1),
+        Between::Body(piece) => piece.to_string(),
+        Between::KeepOut(piece, k) => format!("{}\u{2013}{}", short(piece), k + 1),
+        Between::Pieces(a, b) => format!("{}\u{2013}{}", short(a), short(b)),
     }
 }

@@ -1,88 +1,171 @@
-//! Which links keep how far from the base and from each other.
+//! What keeps how far from what.
+
+use std::fmt;
 
 use nalgebra::Vector3;
-use righting_multibody::{Kinematics, System};
+use righting_multibody::{Kinematics, Segment};
 
+use crate::bodies::{ArmPart, KeepOut, NO_LENGTH, Piece, Solid};
 use crate::system_description::SystemDescription;
 
-/// A link shorter than this part of its arm has no length: rounding of what is meant as zero.
-const NO_LENGTH: f64 = 1e-9;
-
-/// The clearances of a system's links. A link is the straight segment between its two origins; one
-/// without length collides with nothing.
+/// The clearances of a system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CollisionModel {
-    /// Smallest distance of links from the keep-out sphere and from each other d_min, m.
+    /// Smallest distance of the arm's solids from what the base keeps out and from each other d_min, m.
     pub clearance_m: f64,
-    /// Smallest distance of links from the base's center of mass R_body + d_min, m.
-    pub body_distance_m: f64,
-    /// Links that keep away from the base, counted from zero.
-    pub body_links: Vec<usize>,
-    /// Pairs of links that keep away from each other, counted from zero, inboard link first: those
-    /// that can be as far apart as the clearance. Links with no more than the clearance between them
-    /// along the arm share a joint.
-    pub link_pairs: Vec<(usize, usize)>,
+    /// What keeps apart: solids of the arm from the keep-out sphere, then from the shapes of the base one
+    /// after the other, then from each other.
+    pub pairs: Vec<Pair>,
+}
+
+/// Two things that keep apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// Between what.
+    pub between: Between,
+    /// The solid of the arm; of two the one farther out.
+    pub solid: Solid,
+    /// What it keeps away from.
+    pub other: Other,
+    /// The least distance that is allowed, m: the clearance, and from the keep-out sphere, whose center the
+    /// distance is measured from, its radius and the clearance.
+    pub least_m: f64,
+}
+
+/// What a solid of the arm keeps away from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Other {
+    /// The base's center of mass, for the keep-out sphere.
+    Center,
+    /// Something of the base.
+    KeepOut(KeepOut),
+    /// A solid farther in.
+    Solid(Solid),
 }
 
 /// One distance that a system keeps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// Between what, links counted from zero.
+    /// Between what.
     pub between: Between,
-    /// The distance, m.
+    /// The distance of the surfaces, m, negative where they cross; from the keep-out sphere that of the
+    /// solid's surface from the base's center of mass.
     pub distance_m: f64,
     /// The least that is allowed, m.
     pub least_m: f64,
 }
 
-/// The two things a clearance is between. Displayed with links counted from one.
+/// The two things a clearance is between. Displayed counted from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Between {
-    /// A link and the base.
-    LinkAndBody(usize),
-    /// Two links, the inboard one first.
-    Links(usize, usize),
+    /// A piece of the arm and the keep-out sphere.
+    Body(Piece),
+    /// A piece of the arm and a shape of the base, by its place in `base.keep_out`.
+    KeepOut(Piece, usize),
+    /// Two pieces of the arm, the inboard one first.
+    Pieces(Piece, Piece),
 }
 
-impl std::fmt::Display for Between {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::LinkAndBody(link) => write!(f, "link {} and body", link + 1),
-            Self::Links(a, b) => write!(f, "links {} and {}", a + 1, b + 1),
+impl Between {
+    /// Two links along their segments, counted from zero, the inboard one first.
+    pub fn links(inboard: usize, outboard: usize) -> Self {
+        Self::Pieces(Piece::link(inboard), Piece::link(outboard))
+    }
+
+    /// The piece of the arm that keeps away from the base; none for two pieces of the arm.
+    pub fn off_base(&self) -> Option<Piece> {
+        match *self {
+            Self::Body(piece) | Self::KeepOut(piece, _) => Some(piece),
+            Self::Pieces(..) => None,
         }
+    }
+
+    /// Whether a shape or a payload has part in it, and not only links along their segments and the sphere.
+    pub(crate) fn is_of_shapes(&self) -> bool {
+        let is_shape = |piece: &Piece| piece.shape.is_some() || piece.part == ArmPart::Payload;
+        match self {
+            Self::Body(piece) => is_shape(piece),
+            Self::KeepOut(..) => true,
+            Self::Pieces(a, b) => is_shape(a) || is_shape(b),
+        }
+    }
+}
+
+impl fmt::Display for Between {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use ArmPart::Link;
+        match self {
+            Self::Body(piece) => write!(f, "{piece} and body"),
+            Self::KeepOut(piece, k) => write!(f, "{piece} and keep-out {}", k + 1),
+            Self::Pieces(
+                Piece { part: Link(a), shape: None },
+                Piece { part: Link(b), shape: None },
+            ) => write!(f, "links {} and {}", a + 1, b + 1),
+            Self::Pieces(a, b) => write!(f, "{a} and {b}"),
+        }
+    }
+}
+
+impl Pair {
+    /// The part of the distance of the cores that the radii of capsules take, m.
+    pub fn covered_m(&self) -> f64 {
+        self.solid.radius_m
+            + match &self.other {
+                Other::KeepOut(KeepOut::Capsule { radius_m, .. }) => *radius_m,
+                Other::Solid(solid) => solid.radius_m,
+                Other::Center | Other::KeepOut(KeepOut::Cuboid(_)) => 0.0,
+            }
+    }
+
+    /// The least distance of the cores that is allowed, m: radii and all.
+    pub fn least_of_cores_m(&self) -> f64 {
+        self.least_m + self.covered_m()
+    }
+
+    /// The distance in an arm posture.
+    pub fn clearance(&self, posture: &Kinematics<f64>) -> Clearance {
+        let core = posture.core(&self.solid.core);
+        let of_cores_m = match &self.other {
+            Other::Center => core.distance_to_point(&Vector3::zeros()),
+            Other::KeepOut(KeepOut::Capsule { ends_m: [from_m, to_m], .. }) => {
+                core.distance_to_segment(&Segment::new(*from_m, *to_m))
+            }
+            Other::KeepOut(KeepOut::Cuboid(cuboid)) => cuboid.signed_distance(&core),
+            Other::Solid(inboard) => posture.core(&inboard.core).distance_to_segment(&core),
+        };
+        let distance_m = of_cores_m - self.covered_m();
+        Clearance { between: self.between, distance_m, least_m: self.least_m }
     }
 }
 
 impl CollisionModel {
     /// The clearances of a system.
+    ///
+    /// Two capsules along the arm's own line keep apart if they can: if the arm between them is longer than
+    /// what they have to keep. Links with no more than that between them share a joint. Shapes that are
+    /// given are anywhere: those keep apart unless their parts share a joint.
     pub fn new(system: &SystemDescription, clearance_m: f64) -> Self {
-        let model = &system.model;
-        let bodies: Vec<usize> =
-            (0..model.joint_count()).filter(|&link| has_length(model, link)).collect();
-        let farthest_neighbors_m = clearance_m.max(NO_LENGTH * model.length_m());
-        let link_pairs = bodies
-            .iter()
-            .flat_map(|&a| bodies.iter().map(move |&b| (a, b)))
-            .filter(|&(a, b)| a < b && model.length_between_m(a, b) > farthest_neighbors_m)
-            .collect();
-        Self {
-            clearance_m,
-            body_distance_m: system.keep_out_radius_m + clearance_m,
-            body_links: bodies.into_iter().filter(|&link| !system.body_exempt[link]).collect(),
-            link_pairs,
-        }
+        let is_kept =
+            |pair: &Pair| !system.ignored_pairs.iter().any(|named| pair.between.is_named(named));
+        let mut pairs = base_pairs(system, clearance_m, |solid| !is_exempt(system, solid));
+        pairs.extend(
+            arm_pairs(system, clearance_m)
+                .filter(|(pair, between_m)| *between_m > farthest_neighbors_m(system, pair))
+                .map(|(pair, _)| pair),
+        );
+        pairs.retain(is_kept);
+        Self { clearance_m, pairs }
     }
 
-    /// Pairs of links that keep no clearance though there is an arm between them, since that is no
-    /// longer than the clearance; with its length, m.
-    pub(crate) fn neighbors_across_links(&self, system: &System) -> Vec<(usize, usize, f64)> {
-        let bodies = (0..system.joint_count()).filter(|&link| has_length(system, link));
-        let bodies: Vec<usize> = bodies.collect();
-        let pairs = bodies.iter().flat_map(|&a| bodies.iter().map(move |&b| (a, b)));
-        pairs
-            .filter(|&(a, b)| a < b && !self.link_pairs.contains(&(a, b)))
-            .map(|(a, b)| (a, b, system.length_between_m(a, b)))
-            .filter(|&(.., between_m)| between_m > NO_LENGTH * system.length_m())
+    /// Links along the arm's own line that keep no clearance though there is an arm between them, since
+    /// that is no longer than what they would have to keep; with its length, m.
+    pub(crate) fn neighbors_across_links(&self, system: &SystemDescription) -> Vec<(Between, f64)> {
+        let rounding_m = NO_LENGTH * system.model.length_m();
+        arm_pairs(system, self.clearance_m)
+            .filter(|(pair, between_m)| {
+                *between_m > rounding_m && *between_m <= farthest_neighbors_m(system, pair)
+            })
+            .map(|(pair, between_m)| (pair.between, between_m))
             .collect()
     }
 
@@ -91,26 +174,75 @@ impl CollisionModel {
         &'a self,
         posture: &'a Kinematics<f64>,
     ) -> impl Iterator<Item = Clearance> + 'a {
-        let body = self.body_links.iter().map(|&link| Clearance {
-            between: Between::LinkAndBody(link),
-            distance_m: distance_to_body(posture, link),
-            least_m: self.body_distance_m,
-        });
-        let links = self.link_pairs.iter().map(|&(a, b)| Clearance {
-            between: Between::Links(a, b),
-            distance_m: posture.segments[a].distance_to_segment(&posture.segments[b]),
-            least_m: self.clearance_m,
-        });
-        body.chain(links)
+        self.pairs.iter().map(|pair| pair.clearance(posture))
     }
 }
 
-/// Whether a link collides at all.
-pub(crate) fn has_length(model: &System, link: usize) -> bool {
-    model.links()[link].length_m() > NO_LENGTH * model.length_m()
+/// Solids of the arm that are chosen, and everything of the base.
+pub(crate) fn base_pairs(
+    system: &SystemDescription,
+    clearance_m: f64,
+    is_chosen: impl Fn(&Solid) -> bool,
+) -> Vec<Pair> {
+    let solids = || system.solids.iter().filter(|solid| is_chosen(solid));
+    let sphere = system.keep_out_radius_m.into_iter().flat_map(|radius_m| {
+        solids().map(move |solid| Pair {
+            between: Between::Body(solid.piece),
+            solid: solid.clone(),
+            other: Other::Center,
+            least_m: radius_m + clearance_m,
+        })
+    });
+    let shapes = system.keep_out.iter().enumerate().flat_map(|(k, shape)| {
+        solids().map(move |solid| Pair {
+            between: Between::KeepOut(solid.piece, k),
+            solid: solid.clone(),
+            other: Other::KeepOut(shape.clone()),
+            least_m: clearance_m,
+        })
+    });
+    sphere.chain(shapes).collect()
 }
 
-/// Distance of a link from the base's center of mass, m.
-pub(crate) fn distance_to_body(posture: &Kinematics<f64>, link: usize) -> f64 {
-    posture.segments[link].distance_to_point(&Vector3::zeros())
+/// Every two solids of different parts of the arm, with the length of the arm between these, m.
+fn arm_pairs(
+    system: &SystemDescription,
+    clearance_m: f64,
+) -> impl Iterator<Item = (Pair, f64)> + '_ {
+    let place = |solid: &Solid| match solid.piece.part {
+        ArmPart::Link(link) => link,
+        ArmPart::Payload => system.joint_count(),
+    };
+    system.solids.iter().flat_map(move |inboard| {
+        let farther_out = system.solids.iter().filter(move |solid| place(solid) > place(inboard));
+        farther_out.map(move |outboard| {
+            let between_m = system.model.length_between_m(place(inboard), place(outboard));
+            let pair = Pair {
+                between: Between::Pieces(inboard.piece, outboard.piece),
+                solid: outboard.clone(),
+                other: Other::Solid(inboard.clone()),
+                least_m: clearance_m,
+            };
+            (pair, between_m)
+        })
+    })
+}
+
+/// The longest arm between two solids that keep no clearance, m.
+fn farthest_neighbors_m(system: &SystemDescription, pair: &Pair) -> f64 {
+    let rounding_m = NO_LENGTH * system.model.length_m();
+    match &pair.between {
+        Between::Pieces(Piece { shape: None, .. }, Piece { shape: None, .. }) => {
+            pair.least_of_cores_m().max(rounding_m)
+        }
+        _ => rounding_m,
+    }
+}
+
+/// Whether a solid is of a link that may be inside what the base keeps out.
+pub(crate) fn is_exempt(system: &SystemDescription, solid: &Solid) -> bool {
+    match solid.piece.part {
+        ArmPart::Link(link) => system.body_exempt[link],
+        ArmPart::Payload => false,
+    }
 }

@@ -5,6 +5,7 @@
 //! of these with its system inline and every default filled in: it stands in `solution.json`.
 
 mod pointing;
+mod shapes;
 
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
@@ -12,6 +13,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use pointing::{DirectionTable, Pointing};
+pub use shapes::{Capsule, Cuboid, KeepOut, Shape, Sphere};
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -236,7 +238,7 @@ pub struct Weights {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `clearance_m`")]
 pub struct Collision {
-    /// Smallest distance of the links from the base's keep-out sphere and from each other, m;
+    /// Smallest distance of the links and the payload from what the base keeps out and from each other, m;
     /// 0.01 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
@@ -377,6 +379,10 @@ pub struct System {
     /// A rigid body held at the last link's frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub payload: Option<Payload>,
+    /// Pairs that may touch and cross, each two of `links[i]`, `links[i].shapes[k]`, `payload`,
+    /// `payload.shapes[k]`, `base.keep_out[k]` and `base.keep_out_radius_m` (the sphere), counted from zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ignored_pairs: Option<Vec<[String; 2]>>,
 }
 
 /// A uniform cube, or a body of any inertia with a keep-out sphere.
@@ -393,8 +399,9 @@ pub struct Base {
     /// Inertia about the center of mass in body axes, kg m²; instead of `cube_side_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
-    /// Radius of the sphere about the center of mass that links keep out of, m; needed with
-    /// `inertia_kg_m2`, the cube's circumscribed sphere by default.
+    /// Radius of the sphere about the center of mass that links keep out of, m. By default there is none
+    /// beside `keep_out`, and without that it is the cube's circumscribed one; `inertia_kg_m2` needs one
+    /// of the two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub keep_out_radius_m: Option<f64>,
@@ -402,6 +409,9 @@ pub struct Base {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub angular_rate_max_deg_s: Option<f64>,
+    /// What else links keep out of: the bus, solar arrays, antennas.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep_out: Option<Vec<KeepOut>>,
 }
 
 /// Where the arm's frame 0 sits on the base.
@@ -481,8 +491,8 @@ pub struct Link {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_max_n_m: Option<f64>,
-    /// Whether the link may be inside the keep-out sphere: for one that starts there, as part of the
-    /// mount does. It is then not kept away from the base at all.
+    /// Whether the link may be inside the keep-out sphere and the shapes of `base.keep_out`: for one that
+    /// starts in any of them, as part of the mount does. It is then not kept away from the base at all.
     #[serde(default)]
     pub body_exempt: bool,
     /// The frame that the mass moves with, and that the two fields below are in; by default `own` with
@@ -496,6 +506,13 @@ pub struct Link {
     /// slender rod along the segment by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
+    /// Radius of the capsule along the straight segment between the link's two origins, m; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub radius_m: Option<f64>,
+    /// The link's shape instead of that capsule, in the frame that the mass moves with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<Vec<Shape>>,
 }
 
 /// A rigid body held with its center of mass at the last link's origin.
@@ -508,6 +525,13 @@ pub struct Payload {
     /// Inertia about its center of mass in the last link's frame, kg m²; a point mass by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
+    /// Radius of a sphere about its center of mass, m; without it and `shapes` it collides with nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub radius_m: Option<f64>,
+    /// Its shape instead of that sphere, in the last link's frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<Vec<Shape>>,
 }
 
 /// Adds to the schema what the type cannot say: a slew has a target, a detumble has none.

@@ -28,6 +28,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod bodies;
 pub mod collision;
 mod end;
 pub mod error;
@@ -36,6 +37,7 @@ pub mod file_io;
 pub mod file_kind;
 pub mod halton;
 mod horizon;
+pub mod ignored_pairs;
 mod inertias;
 pub mod initial;
 pub mod joint_limits;

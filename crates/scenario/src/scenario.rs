@@ -87,16 +87,21 @@ impl Scenario {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
         let mut notes = Vec::new();
-        let (mut system, links_place) =
+        let (mut system, system_place) =
             resolve_system(&mut scenario.system, file, &place.key("system"), &mut notes)?;
         let initial_place = place.key("initial");
         if let SystemReference::Inline(file) = &mut scenario.system {
-            widen_to_start(&scenario.initial, &mut file.links, &links_place, &mut notes);
+            widen_to_start(
+                &scenario.initial,
+                &mut file.links,
+                &system_place.key("links"),
+                &mut notes,
+            );
             system.joint_limits = file.links.iter().map(JointLimits::of).collect();
         }
         let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
         let rate_place = initial_place.key("angular_rate_deg_s");
-        start_loads::check(&system, &initial, &rate_place, &links_place)?;
+        start_loads::check(&system, &initial, &rate_place, &system_place.key("links"))?;
         let maneuver_place = place.key("maneuver");
         let maneuver =
             Maneuver::from_file(&scenario.maneuver, &initial, &maneuver_place, &mut notes)?;
@@ -134,7 +139,7 @@ impl Scenario {
             system: &system,
             joint_angles_rad: &initial.joint_angles_rad,
             angles: initial_place.key("joint_angles_deg"),
-            links: links_place,
+            place: system_place,
             clearance: clearance_place,
         };
         let collision = start.collision_model(clearance_m, &mut notes)?;
@@ -305,7 +310,7 @@ impl file::Scenario {
 }
 
 /// Puts the system inline and checks it; complaints about a system file name that file. Returns the
-/// place of its links too.
+/// place where it stands too.
 fn resolve_system(
     reference: &mut SystemReference,
     file: &Path,
@@ -314,7 +319,7 @@ fn resolve_system(
 ) -> Result<(SystemDescription, Location), Error> {
     match reference {
         SystemReference::Inline(system) => {
-            Ok((SystemDescription::from_file(system, place, notes)?, place.key("links")))
+            Ok((SystemDescription::from_file(system, place, notes)?, place.clone()))
         }
         SystemReference::File(path) => {
             if path.is_empty() {
@@ -331,7 +336,7 @@ fn resolve_system(
             let place = Location::root(&system_file);
             let description = SystemDescription::from_file(&mut system, &place, notes)?;
             *reference = SystemReference::Inline(Box::new(system));
-            Ok((description, place.key("links")))
+            Ok((description, place))
         }
     }
 }

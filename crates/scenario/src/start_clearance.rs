@@ -1,16 +1,19 @@
-//! Whether a maneuver starts clear, and which links may start inside the keep-out sphere.
+//! Whether a maneuver starts clear, and which links may start inside what the base keeps out.
 //!
-//! One rule for `body_exempt`: a link that starts inside the keep-out sphere with its clearance is
-//! refused unless it is exempt, and one that starts outside is refused if it is.
+//! One rule for `body_exempt`: a link that starts inside the keep-out sphere or a shape of the base with its
+//! clearance is refused unless it is exempt, and one that starts outside of all is refused if it is.
 
-use crate::collision::{Between, Clearance, CollisionModel, distance_to_body, has_length};
+use righting_multibody::Kinematics;
+
+use crate::bodies::{ArmPart, Piece};
+use crate::collision::{Between, Clearance, CollisionModel, Pair, base_pairs};
 use crate::error::Error;
 use crate::halton::Halton;
 use crate::json::{Location, Number};
 use crate::rounding::{COMPUTED, PRINTED};
 use crate::system_description::SystemDescription;
 
-/// Arm postures tried to see whether an exempt link can leave the keep-out sphere.
+/// Arm postures tried to see whether an exempt link can leave what the base keeps out.
 const SAMPLES: usize = 2000;
 /// As many of the links that start too close are named.
 const MOST_NAMED: usize = 4;
@@ -21,8 +24,8 @@ pub(crate) struct Start<'a> {
     pub joint_angles_rad: &'a [f64],
     /// Where the joint angles stand.
     pub angles: Location,
-    /// Where the system's links stand.
-    pub links: Location,
+    /// Where the system stands.
+    pub place: Location,
     /// Where the clearance stands, or would.
     pub clearance: Location,
 }
@@ -39,12 +42,10 @@ impl Start<'_> {
         notes: &mut Vec<String>,
     ) -> Result<CollisionModel, Error> {
         let asked = CollisionModel::new(self.system, clearance_m);
-        for (a, b, between_m) in asked.neighbors_across_links(&self.system.model) {
+        for (between, between_m) in asked.neighbors_across_links(self.system) {
             notes.push(self.clearance.note(format_args!(
-                "links {} and {} are never farther apart than what is between them, {} m: no \
-                 clearance is kept between them",
-                a + 1,
-                b + 1,
+                "{between} are never farther apart than what is between them, {} m: no clearance is \
+                 kept between them",
                 Number::rounded(between_m, 3)
             )));
         }
@@ -90,21 +91,32 @@ impl Start<'_> {
         missing_m.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// An exempt link that starts outside the keep-out sphere with its clearance, and its distance from
-    /// the base's center of mass, m.
-    fn needless_exemption(&self, collision: &CollisionModel) -> Option<(usize, f64)> {
+    /// An exempt link that starts outside of all that the base keeps out with its clearance, and what of
+    /// that is nearest, if there is anything.
+    fn needless_exemption(&self, collision: &CollisionModel) -> Option<(usize, Option<Clearance>)> {
         let posture = self.system.model.kinematics(self.joint_angles_rad);
-        let inside_m = collision.body_distance_m + self.slack_m();
         self.exempt()
-            .map(|link| (link, distance_to_body(&posture, link)))
-            .find(|&(_, distance_m)| distance_m > inside_m)
+            .map(|link| (link, nearest(&self.off_base(link, collision), &posture)))
+            .find(|(_, nearest)| nearest.is_none_or(|nearest| self.is_kept(&nearest)))
     }
 
-    /// Exempt links with length.
+    /// A link and everything that the base keeps out, kept apart or not.
+    fn off_base(&self, link: usize, collision: &CollisionModel) -> Vec<Pair> {
+        let part = ArmPart::Link(link);
+        base_pairs(self.system, collision.clearance_m, |solid| solid.piece.part == part)
+    }
+
+    /// Whether a distance is kept, but for rounding.
+    fn is_kept(&self, clearance: &Clearance) -> bool {
+        clearance.distance_m > clearance.least_m + self.slack_m()
+    }
+
+    /// Exempt links that are solid.
     fn exempt(&self) -> impl Iterator<Item = usize> {
         let system = self.system;
-        (0..system.joint_count())
-            .filter(move |&link| system.body_exempt[link] && has_length(&system.model, link))
+        let is_solid =
+            |link: usize| system.solids.iter().any(|solid| solid.piece.part == ArmPart::Link(link));
+        (0..system.joint_count()).filter(move |&link| system.body_exempt[link] && is_solid(link))
     }
 
     /// Whether nothing is too close and nothing exempt without need.
@@ -120,37 +132,43 @@ impl Start<'_> {
         if close.len() > MOST_NAMED {
             found.push(format!("{} more too close", close.len() - MOST_NAMED));
         }
-        let inside: Vec<usize> = close
-            .iter()
-            .filter_map(|clearance| match clearance.between {
-                Between::LinkAndBody(link) => Some(link),
-                Between::Links(..) => None,
-            })
-            .collect();
+        let (body, others): (Vec<Clearance>, Vec<Clearance>) =
+            close.iter().partition(|clearance| matches!(clearance.between, Between::Body(_)));
         let mut least = Vec::new();
-        if !inside.is_empty() {
-            let body_m = meters(collision.body_distance_m);
+        if let Some(radius_m) = self.system.keep_out_radius_m.filter(|_| !body.is_empty()) {
+            let body_m = meters(radius_m + collision.clearance_m);
             least.push(format!("{body_m} m, keep-out radius and clearance"));
         }
-        if inside.len() < close.len() {
+        if !others.is_empty() {
             least.push(format!("the clearance, {} m", meters(collision.clearance_m)));
         }
-        let mut expected = format!("at least {}", least.join(", and between links "));
-        let ways_out = self.ways_out(collision.clearance_m, &inside);
+        let is_between_arm = others.iter().all(|other| other.between.off_base().is_none());
+        let and = if is_between_arm { ", and between links " } else { ", and otherwise " };
+        let mut expected = format!("at least {}", least.join(and));
+        let ways_out = self.ways_out(collision.clearance_m, &close);
         if !ways_out.is_empty() {
             expected.push_str(&format!(" (or set {})", ways_out.join(", or ")));
         }
         self.angles.refuse(format!("a start with {}", found.join(", ")), expected)
     }
 
-    /// Fields that make this start a good one. Each was tried.
-    fn ways_out(&self, clearance_m: f64, inside: &[usize]) -> Vec<String> {
+    /// Fields that make this start a good one, where these are too close. Each was tried.
+    fn ways_out(&self, clearance_m: f64, close: &[Clearance]) -> Vec<String> {
+        let mut inside: Vec<usize> = Vec::new();
+        for clearance in close {
+            if let Some(Piece { part: ArmPart::Link(link), .. }) = clearance.between.off_base()
+                && !inside.contains(&link)
+            {
+                inside.push(link);
+            }
+        }
         let mut exempting = self.system.clone();
-        for &link in inside {
+        for &link in &inside {
             exempting.body_exempt[link] = true;
         }
         let exempting = self.of(&exempting);
-        let exempt = |&link: &usize| self.links.index(link).key("body_exempt").path().to_owned();
+        let links = self.place.key("links");
+        let exempt = |&link: &usize| links.index(link).key("body_exempt").path().to_owned();
         let exempt = inside.iter().map(exempt).collect::<Vec<_>>().join(" and ");
         let lower = |start: &Start<'_>| {
             let asked = CollisionModel::new(start.system, clearance_m);
@@ -169,6 +187,20 @@ impl Start<'_> {
         if ways_out.is_empty() && !inside.is_empty() {
             ways_out.extend(lower(&exempting).map(|lower| format!("{exempt}, and {lower}")));
         }
+        // What was given a shape may be where it is on purpose.
+        let is_solid =
+            |clearance: &Clearance| clearance.between.is_of_shapes() || clearance.distance_m < 0.0;
+        if close.len() <= MOST_NAMED && close.iter().any(is_solid) {
+            let mut ignoring = self.system.clone();
+            ignoring.ignored_pairs.extend(close.iter().map(|clearance| clearance.between.named()));
+            let ignoring = self.of(&ignoring);
+            if ignoring.is_good(&CollisionModel::new(ignoring.system, clearance_m)) {
+                let names: Vec<String> =
+                    close.iter().map(|clearance| clearance.between.field_names()).collect();
+                let place = self.place.key("ignored_pairs");
+                ways_out.push(format!("{} to [{}]", place.path(), names.join(", ")));
+            }
+        }
         ways_out
     }
 
@@ -178,7 +210,7 @@ impl Start<'_> {
             system,
             joint_angles_rad: self.joint_angles_rad,
             angles: self.angles.clone(),
-            links: self.links.clone(),
+            place: self.place.clone(),
             clearance: self.clearance.clone(),
         }
     }
@@ -190,33 +222,33 @@ impl Start<'_> {
         collision: &CollisionModel,
         notes: &mut Vec<String>,
     ) -> Result<(), Error> {
-        if let Some((link, distance_m)) = self.needless_exemption(collision) {
-            let allowed = format!(
-                "false: link {} starts {} m from the base's center of mass, outside the keep-out \
-                 sphere with its clearance, {} m",
-                link + 1,
-                meters(distance_m),
-                meters(collision.body_distance_m)
-            );
-            return Err(self.links.index(link).key("body_exempt").refuse(true, allowed));
+        let links = self.place.key("links");
+        if let Some((link, nearest)) = self.needless_exemption(collision) {
+            let place = links.index(link).key("body_exempt");
+            return Err(place.refuse(true, clear_start(link, nearest)));
         }
         let exempt: Vec<usize> = self.exempt().collect();
         if exempt.is_empty() {
             return Ok(());
         }
-        let joints = self.system.joint_count();
-        let mut farthest_m = vec![0.0_f64; joints];
-        for sample in Halton::new(joints).take(SAMPLES) {
+        let pairs: Vec<Vec<Pair>> =
+            exempt.iter().map(|&link| self.off_base(link, collision)).collect();
+        let mut can_leave = vec![false; exempt.len()];
+        for sample in Halton::new(self.system.joint_count()).take(SAMPLES) {
             let posture = self.system.model.kinematics(&self.system.joint_angles_at(&sample));
-            for &link in &exempt {
-                farthest_m[link] = farthest_m[link].max(distance_to_body(&posture, link));
+            for (can_leave, pairs) in can_leave.iter_mut().zip(&pairs) {
+                *can_leave |=
+                    nearest(pairs, &posture).is_some_and(|nearest| self.is_kept(&nearest));
             }
         }
-        let inside_m = collision.body_distance_m + self.slack_m();
-        for link in exempt.into_iter().filter(|&link| farthest_m[link] > inside_m) {
-            notes.push(self.links.index(link).key("body_exempt").note(format_args!(
-                "link {} starts inside the keep-out sphere and can leave it: it is not kept away \
-                 from the base anywhere",
+        let of_base = match self.system.keep_out.is_empty() {
+            true => "the keep-out sphere",
+            false => "what the base keeps out",
+        };
+        for (link, _) in exempt.into_iter().zip(can_leave).filter(|(_, can_leave)| *can_leave) {
+            notes.push(links.index(link).key("body_exempt").note(format_args!(
+                "link {} starts inside {of_base} and can leave it: it is not kept away from the base \
+                 anywhere",
                 link + 1
             )));
         }
@@ -224,14 +256,46 @@ impl Start<'_> {
     }
 }
 
-/// Such as "links 1 and 3 0.04 m apart".
-fn distance(clearance: &Clearance) -> String {
-    let distance_m = meters(clearance.distance_m);
-    match clearance.between {
-        Between::LinkAndBody(link) => {
-            format!("link {} {distance_m} m from the base's center of mass", link + 1)
+/// The pair with the least room.
+fn nearest(pairs: &[Pair], posture: &Kinematics<f64>) -> Option<Clearance> {
+    let room_m = |clearance: &Clearance| clearance.distance_m - clearance.least_m;
+    let clearances = pairs.iter().map(|pair| pair.clearance(posture));
+    clearances.min_by(|a, b| room_m(a).total_cmp(&room_m(b)))
+}
+
+/// Why a link needs no exemption: what of the base is nearest to it at the start.
+fn clear_start(link: usize, nearest: Option<Clearance>) -> String {
+    let link = link + 1;
+    match nearest {
+        Some(Clearance { between: Between::Body(_), distance_m, least_m }) => format!(
+            "false: link {link} starts {} m from the base's center of mass, outside the keep-out sphere \
+             with its clearance, {} m",
+            meters(distance_m),
+            meters(least_m)
+        ),
+        Some(clearance) => format!(
+            "false: {}, the nearest of what the base keeps out, at the start, and the clearance is {} m",
+            distance(&clearance),
+            meters(clearance.least_m)
+        ),
+        None => {
+            format!("false: the base keeps nothing out, and link {link} is free to be anywhere")
         }
-        Between::Links(a, b) => format!("links {} and {} {distance_m} m apart", a + 1, b + 1),
+    }
+}
+
+/// Such as "links 1 and 3 0.04 m apart" or "link 2 0.04 m inside base.keep_out[0]".
+fn distance(clearance: &Clearance) -> String {
+    let Clearance { between, distance_m, .. } = *clearance;
+    let by_m = meters(distance_m.abs());
+    match (between, distance_m < 0.0) {
+        (Between::Body(piece), _) => {
+            format!("{piece} {} m from the base's center of mass", meters(distance_m))
+        }
+        (Between::KeepOut(piece, k), false) => format!("{piece} {by_m} m from base.keep_out[{k}]"),
+        (Between::KeepOut(piece, k), true) => format!("{piece} {by_m} m inside base.keep_out[{k}]"),
+        (Between::Pieces(..), false) => format!("{between} {by_m} m apart"),
+        (Between::Pieces(..), true) => format!("{between} {by_m} m into each other"),
     }
 }
 

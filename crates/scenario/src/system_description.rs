@@ -6,8 +6,10 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use righting_multibody as multibody;
 use righting_multibody::{Quaternion, System};
 
+use crate::bodies::{KeepOut, Solid, keep_out, solids};
 use crate::error::Error;
 use crate::file;
+use crate::ignored_pairs::{Named, ignored_pairs};
 use crate::inertias::Parts;
 use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
@@ -20,9 +22,9 @@ pub const MAX_JOINTS: usize = 32;
 // As wide as systems in millimeters or kilometers, grams or kilotons need.
 pub(crate) const MASS_KG: Bounds = Bounds::Between(0.0, 1e15);
 const BODY_MASS_KG: Bounds = Bounds::Above(0.0, 1e15);
-const LENGTH_M: Bounds = Bounds::Between(-1e8, 1e8);
+pub(crate) const LENGTH_M: Bounds = Bounds::Between(-1e8, 1e8);
 pub(crate) const SIZE_M: Bounds = Bounds::Above(0.0, 1e8);
-const RADIUS_M: Bounds = Bounds::Between(0.0, 1e8);
+pub(crate) const RADIUS_M: Bounds = Bounds::Between(0.0, 1e8);
 const INERTIA_KG_M2: Bounds = Bounds::Between(-1e30, 1e30);
 const DH_ANGLE_DEG: Bounds = Bounds::Between(-360.0, 360.0);
 
@@ -36,13 +38,19 @@ pub struct SystemDescription {
     pub name: String,
     /// Masses and geometry.
     pub model: System,
-    /// Radius of the sphere about the base's center of mass that links keep out of, m.
-    pub keep_out_radius_m: f64,
+    /// Radius of the sphere about the base's center of mass that the arm keeps out of, m, if there is one.
+    pub keep_out_radius_m: Option<f64>,
+    /// What else of the base it keeps out of.
+    pub keep_out: Vec<KeepOut>,
+    /// The solids of the arm, from the base outward.
+    pub solids: Vec<Solid>,
+    /// Pairs of bodies that may touch and cross.
+    pub ignored_pairs: Vec<[Named; 2]>,
     /// Limits, one a joint.
     pub joint_limits: Vec<JointLimits>,
     /// What the mount bears, and how fast the base may turn.
     pub load_limits: LoadLimits,
-    /// Whether a link may be inside the keep-out sphere, such as a part of the mount; one a link.
+    /// Whether a link may be inside what the base keeps out, such as a part of the mount; one a link.
     pub body_exempt: Vec<bool>,
 }
 
@@ -82,7 +90,9 @@ impl SystemDescription {
         if system.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
-        let (base, keep_out_radius_m) = base(&system.base, &place.key("base"))?;
+        let base_place = place.key("base");
+        let (base, keep_out_radius_m) = base(&system.base, &base_place)?;
+        let keep_out = keep_out(&system.base, &base_place)?;
         let mount = mount(&system.mount, &place.key("mount"), notes)?;
         let convention = match system.dh_convention {
             file::DhConvention::Standard => multibody::DhConvention::Standard,
@@ -109,8 +119,11 @@ impl SystemDescription {
         notes.extend(doubt_about_frames(system, &links_place));
         Ok(Self {
             name: system.name.clone(),
-            model,
             keep_out_radius_m,
+            keep_out,
+            solids: solids(system, &model, place)?,
+            ignored_pairs: ignored_pairs(system, keep_out_radius_m.is_some(), place)?,
+            model,
             joint_limits,
             load_limits: LoadLimits::from_file(system, place)?,
             body_exempt: system.links.iter().map(|link| link.body_exempt).collect(),
@@ -168,35 +181,39 @@ pub(crate) fn unit_quaternion(
     Ok(quaternion.normalized())
 }
 
-fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, f64), Error> {
+/// The base, and the radius of its keep-out sphere if it has one: beside `keep_out` only where it is given.
+fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, Option<f64>), Error> {
     let mass_kg = place.key("mass_kg").within(base.mass_kg, BODY_MASS_KG)?;
     let cube_place = place.key("cube_side_m");
     let radius_place = place.key("keep_out_radius_m");
-    match (base.cube_side_m, &base.inertia_kg_m2, base.keep_out_radius_m) {
-        (Some(_), Some(_), _) => {
+    let radius_m = base
+        .keep_out_radius_m
+        .map(|radius_m| radius_place.within(radius_m, RADIUS_M))
+        .transpose()?;
+    let has_shapes = base.keep_out.is_some();
+    match (base.cube_side_m, &base.inertia_kg_m2) {
+        (Some(_), Some(_)) => {
             let place = place.key("inertia_kg_m2");
             Err(place.refuse("both cube_side_m and inertia_kg_m2", "one of them"))
         }
-        (Some(side_m), None, radius_m) => {
+        (Some(side_m), None) => {
             let side_m = cube_place.within(side_m, SIZE_M)?;
-            let radius_m = match radius_m {
-                Some(radius_m) => radius_place.within(radius_m, RADIUS_M)?,
-                None => side_m * 3.0_f64.sqrt() / 2.0,
-            };
+            let circumscribed_m = (!has_shapes).then(|| side_m * 3.0_f64.sqrt() / 2.0);
             let body = multibody::Base::uniform_cube(mass_kg, side_m)
                 .map_err(|_| cube_place.refuse(Number(side_m), SIZE_M))?;
-            Ok((body, radius_m))
+            Ok((body, radius_m.or(circumscribed_m)))
         }
-        (None, Some(inertia), Some(radius_m)) => {
+        (None, Some(inertia)) => {
             let inertia_kg_m2 = matrix(inertia, &place.key("inertia_kg_m2"))?;
-            let radius_m = radius_place.within(radius_m, RADIUS_M)?;
+            if radius_m.is_none() && !has_shapes {
+                return Err(radius_place.missing(
+                    "the radius of the keep-out sphere, which goes with inertia_kg_m2, or keep_out",
+                ));
+            }
             Ok((multibody::Base { mass_kg, inertia_kg_m2 }, radius_m))
         }
-        (None, Some(_), None) => Err(radius_place
-            .missing("the radius of the keep-out sphere, which goes with inertia_kg_m2")),
-        (None, None, _) => {
-            Err(cube_place.missing("the side of a cube, or inertia_kg_m2 with keep_out_radius_m"))
-        }
+        (None, None) => Err(cube_place
+            .missing("the side of a cube, or inertia_kg_m2 with keep_out_radius_m or keep_out")),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use righting_multibody::{ModelError, Units};
 
-use crate::collision::CollisionModel;
+use crate::bodies::Solid;
+use crate::collision::{CollisionModel, Other, Pair};
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::load_limits::LoadLimits;
@@ -43,7 +44,13 @@ impl SystemDescription {
         });
         Ok(Self {
             model: self.model.in_units(units)?,
-            keep_out_radius_m: self.keep_out_radius_m / units.length_m,
+            keep_out_radius_m: self.keep_out_radius_m.map(|radius_m| radius_m / units.length_m),
+            keep_out: self
+                .keep_out
+                .iter()
+                .map(|shape| shape.in_lengths_of(units.length_m))
+                .collect(),
+            solids: self.solids.iter().map(|solid| solid.in_units(units)).collect(),
             joint_limits: limits.collect(),
             load_limits: self.load_limits.in_units(units),
             ..self.clone()
@@ -109,12 +116,28 @@ impl Pointing {
     }
 }
 
-impl CollisionModel {
+impl Solid {
     fn in_units(&self, units: &Units) -> Self {
         Self {
-            clearance_m: self.clearance_m / units.length_m,
-            body_distance_m: self.body_distance_m / units.length_m,
-            ..self.clone()
+            core: self.core.in_lengths_of(units.length_m),
+            radius_m: self.radius_m / units.length_m,
+            ..*self
         }
+    }
+}
+
+impl CollisionModel {
+    fn in_units(&self, units: &Units) -> Self {
+        let pairs = self.pairs.iter().map(|pair| Pair {
+            between: pair.between,
+            solid: pair.solid.in_units(units),
+            other: match &pair.other {
+                Other::Center => Other::Center,
+                Other::KeepOut(shape) => Other::KeepOut(shape.in_lengths_of(units.length_m)),
+                Other::Solid(solid) => Other::Solid(solid.in_units(units)),
+            },
+            least_m: pair.least_m / units.length_m,
+        });
+        Self { clearance_m: self.clearance_m / units.length_m, pairs: pairs.collect() }
     }
 }

@@ -105,7 +105,12 @@ fn a_base_and_a_payload_are_projected_too() {
     planar.project_inertias = true;
     planar.base.cube_side_m = None;
     planar.base.inertia_kg_m2 = Some(diagonal([0.0, 0.0, 6.0]));
-    let payload = file::Payload { mass_kg: 5.0, inertia_kg_m2: Some(diagonal([1.0, 1.0, 2.3])) };
+    let payload = file::Payload {
+        mass_kg: 5.0,
+        inertia_kg_m2: Some(diagonal([1.0, 1.0, 2.3])),
+        radius_m: None,
+        shapes: None,
+    };
     planar.payload = Some(payload);
     let scenario = checked(planar.clone()).unwrap();
     let base = scenario.system().model.base().inertia_kg_m2;

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use righting_multibody::DhConvention;
+use righting_scenario::bodies::Piece;
+use righting_scenario::collision::Between;
 use righting_scenario::file::{Formulation, Guess, NamedGuess};
 use righting_scenario::{Maneuver, Scenario, SystemDescription, schema};
 use righting_test_support::json_schema::violation;
@@ -99,22 +101,28 @@ fn the_paper_s_maneuvers_have_the_paper_s_size() {
 
 #[test]
 fn links_collide_as_the_design_says() {
-    let small = shipped("slew_2dof");
-    assert!(small.collision().body_links.is_empty() && small.collision().link_pairs.is_empty());
+    assert!(shipped("slew_2dof").collision().pairs.is_empty());
+    let bodies = |links: &[usize]| -> Vec<Between> {
+        links.iter().map(|&link| Between::Body(Piece::link(link))).collect()
+    };
+    let apart = |pairs: &[(usize, usize)]| -> Vec<Between> {
+        pairs.iter().map(|&(a, b)| Between::links(a, b)).collect()
+    };
+    let kept = |scenario: &Scenario| -> Vec<Between> {
+        scenario.collision().pairs.iter().map(|pair| pair.between).collect()
+    };
     let xlink = shipped("slew_4dof");
-    assert_eq!(xlink.collision().body_links, [1, 2, 3]);
-    assert_eq!(xlink.collision().link_pairs, [(0, 2), (0, 3), (1, 3)]);
+    assert_eq!(kept(&xlink), [bodies(&[1, 2, 3]), apart(&[(0, 2), (0, 3), (1, 3)])].concat());
     for (name, convention) in [
         ("slew_canadarm2_table", DhConvention::Standard),
         ("slew_canadarm2", DhConvention::Modified),
     ] {
         let arm = shipped(name);
         assert_eq!(arm.system().model.convention(), convention);
-        assert_eq!(arm.collision().body_links, [3, 4, 5]);
         let pairs = [(1, 3), (1, 4), (1, 5), (2, 4), (2, 5), (3, 5)];
-        assert_eq!(arm.collision().link_pairs, pairs);
+        assert_eq!(kept(&arm), [bodies(&[3, 4, 5]), apart(&pairs)].concat());
         let radius = 3.0_f64.sqrt();
-        assert!((arm.collision().body_distance_m - radius - 0.01).abs() < 1e-15);
+        assert!((arm.collision().pairs[0].least_m - radius - 0.01).abs() < 1e-15);
         assert_eq!(arm.system().model.total_mass(), 401_500.0);
     }
 }

@@ -66,6 +66,8 @@ fn link() -> impl Strategy<Value = file::Link> {
                     .filter(|_| center_of_mass_m.is_some() && inertia_kg_m2.is_some()),
                 center_of_mass_m,
                 inertia_kg_m2: inertia_kg_m2.filter(|_| mass_kg > 0.0),
+                radius_m: None,
+                shapes: None,
             }
         },
     )
@@ -80,12 +82,14 @@ fn base() -> impl Strategy<Value = file::Base> {
         inertia_kg_m2,
         keep_out_radius_m: Some(0.0),
         angular_rate_max_deg_s: None,
+        keep_out: None,
     })
 }
 
 fn payload() -> impl Strategy<Value = file::Payload> {
-    (0.1..10.0_f64, prop::option::of(inertia(1.0)))
-        .prop_map(|(mass_kg, inertia_kg_m2)| file::Payload { mass_kg, inertia_kg_m2 })
+    (0.1..10.0_f64, prop::option::of(inertia(1.0))).prop_map(|(mass_kg, inertia_kg_m2)| {
+        file::Payload { mass_kg, inertia_kg_m2, radius_m: None, shapes: None }
+    })
 }
 
 /// A scenario at rest with an arm of any number of joints in `joints`, either convention, any mount.
@@ -110,6 +114,7 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
                 links,
                 project_inertias: false,
                 payload,
+                ignored_pairs: None,
             };
             let scenario = file::Scenario {
                 name: "arm at rest".to_owned(),

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arms;
+pub mod bodies;
 pub mod by_hand;
 pub mod json_schema;
 pub mod thin_links;

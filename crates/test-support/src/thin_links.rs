@@ -23,6 +23,8 @@ pub fn thin_link(mass_kg: f64, a_m: f64, alpha_deg: f64, limits: [f64; 2]) -> Li
         center_of_mass_m: None,
         inertia_kg_m2: None,
         inertial_frame: None,
+        radius_m: None,
+        shapes: None,
     }
 }
 

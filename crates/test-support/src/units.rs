@@ -30,6 +30,14 @@ impl Units {
         base.cube_side_m = base.cube_side_m.map(|side_m| side_m * length);
         base.keep_out_radius_m = base.keep_out_radius_m.map(|radius_m| radius_m * length);
         scale_inertia(&mut base.inertia_kg_m2);
+        for shape in base.keep_out.iter_mut().flatten() {
+            self.sphere(&mut shape.sphere);
+            self.capsule(&mut shape.capsule);
+            if let Some(cuboid) = &mut shape.cuboid {
+                cuboid.center_m = cuboid.center_m.map(|entry| entry * length);
+                cuboid.size_m = cuboid.size_m.map(|entry| entry * length);
+            }
+        }
         system.mount.position_m = system.mount.position_m.map(|entry| entry * length);
         for link in &mut system.links {
             link.mass_kg *= mass;
@@ -40,6 +48,34 @@ impl Units {
             link.torque_max_n_m = link.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
             link.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
             scale_inertia(&mut link.inertia_kg_m2);
+            link.radius_m = link.radius_m.map(|radius_m| radius_m * length);
+            link.shapes.iter_mut().flatten().for_each(|shape| self.shape(shape));
+        }
+        if let Some(payload) = &mut system.payload {
+            payload.mass_kg *= mass;
+            scale_inertia(&mut payload.inertia_kg_m2);
+            payload.radius_m = payload.radius_m.map(|radius_m| radius_m * length);
+            payload.shapes.iter_mut().flatten().for_each(|shape| self.shape(shape));
+        }
+    }
+
+    fn shape(self, shape: &mut file::Shape) {
+        self.sphere(&mut shape.sphere);
+        self.capsule(&mut shape.capsule);
+    }
+
+    fn sphere(self, sphere: &mut Option<file::Sphere>) {
+        if let Some(sphere) = sphere {
+            sphere.center_m = sphere.center_m.map(|entry| entry * self.length);
+            sphere.radius_m *= self.length;
+        }
+    }
+
+    fn capsule(self, capsule: &mut Option<file::Capsule>) {
+        if let Some(capsule) = capsule {
+            capsule.from_m = capsule.from_m.map(|entry| entry * self.length);
+            capsule.to_m = capsule.to_m.map(|entry| entry * self.length);
+            capsule.radius_m *= self.length;
         }
     }
 

@@ -1,96 +1,229 @@
-//! The distances that links keep, from the system file.
+//! The distances that are kept, from the system file.
 
 use nalgebra::Vector3;
+use righting_scenario::bodies::ArmPart;
 use righting_scenario::collision::Between;
 use righting_scenario::file;
+use righting_scenario::ignored_pairs::Named;
 
+use crate::bodies::{Fixed, ROUNDING, Solid, solids};
 use crate::ledger::{Subject, Worst};
-use crate::model::Segment;
+use crate::model::{Cuboid, Pose, Segment};
 
-/// A length below this part of the arm's is none.
-const ROUNDING: f64 = 1e-9;
-
-/// Which links keep how far from the base and from each other.
+/// Which solids of the arm keep how far from the base and from each other.
 ///
-/// A link is the straight segment between its two origins. One without length, or with a rounding of
-/// none, collides with nothing. Two links between which the arm is no longer than the clearance can
-/// never be that far apart: they share a joint.
+/// Two links along their segments, of which the arm between is no longer than what they have to keep, can
+/// never be that far apart: they share a joint. So it is with a payload that is a sphere. Shapes that are
+/// given keep apart unless their parts share a joint.
 #[derive(Clone, Debug)]
 pub(super) struct Clearances {
-    /// Links that keep away from the base, counted from zero.
-    body_links: Vec<usize>,
-    /// Pairs of links that keep away from each other, inboard link first.
-    link_pairs: Vec<(usize, usize)>,
-    /// Least distance from the base's center of mass: keep-out radius and clearance, m.
-    least_from_body_m: f64,
-    /// Least distance of two links, m.
-    least_between_links_m: f64,
+    pub solids: Vec<Solid>,
+    pairs: Vec<Pair>,
+}
+
+/// Two things that keep apart.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    pub between: Between,
+    /// Place among the solids of the one that is farther out.
+    pub outer: usize,
+    pub inner: Inner,
+    /// What radii take of the distance between the segments, m.
+    covered_m: f64,
+    /// Least distance, m: between surfaces, or of one from the base's center of mass.
+    pub least_m: f64,
+}
+
+/// What a solid of the arm keeps away from.
+#[derive(Clone, Debug)]
+pub(super) enum Inner {
+    /// A segment of the base, or the base's center of mass as one.
+    Segment(Segment),
+    /// A box of the base.
+    Cuboid(Cuboid),
+    /// Another solid, by its place among them.
+    Solid(usize),
+}
+
+/// The two things of a pair in a posture, without their radii.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Situation {
+    inner: Shape,
+    outer: Segment,
+    covered_m: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    Segment(Segment),
+    Cuboid(Cuboid),
 }
 
 impl Clearances {
     pub fn new(system: &file::System, clearance_m: f64) -> Self {
-        let lengths_m: Vec<f64> =
-            system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
-        let rounding_m = ROUNDING * lengths_m.iter().sum::<f64>();
-        let solid: Vec<usize> =
-            (0..lengths_m.len()).filter(|&link| lengths_m[link] > rounding_m).collect();
-        let mut link_pairs = Vec::new();
-        for (nth, &inboard) in solid.iter().enumerate() {
-            for &outboard in &solid[nth + 1..] {
-                let between_m: f64 = lengths_m[inboard + 1..outboard].iter().sum();
-                if between_m > clearance_m && between_m > rounding_m {
-                    link_pairs.push((inboard, outboard));
-                }
-            }
-        }
-        let exempt = |link: &usize| system.links[*link].body_exempt;
-        // Half the space diagonal of a cube.
-        let circumscribed_m = |side_m: f64| Vector3::repeat(side_m / 2.0).norm();
-        let keep_out_m = system
-            .base
-            .keep_out_radius_m
-            .or(system.base.cube_side_m.map(circumscribed_m))
-            .unwrap_or(0.0);
-        Self {
-            body_links: solid.iter().copied().filter(|link| !exempt(link)).collect(),
-            link_pairs,
-            least_from_body_m: keep_out_m + clearance_m,
-            least_between_links_m: clearance_m,
-        }
+        let solids = solids(system);
+        let named: Vec<[Named; 2]> = system
+            .ignored_pairs
+            .iter()
+            .flatten()
+            .filter_map(|[a, b]| Some([Named::parse(a)?, Named::parse(b)?]))
+            .collect();
+        let mut pairs = base_pairs(system, &solids, clearance_m);
+        pairs.extend(arm_pairs(system, &solids, clearance_m));
+        pairs.retain(|pair| !named.iter().any(|names| pair.between.is_named(names)));
+        Self { solids, pairs }
     }
 
     /// Every distance that is kept.
-    pub fn all(&self) -> impl Iterator<Item = Between> + '_ {
-        let body = self.body_links.iter().map(|&link| Between::LinkAndBody(link));
-        body.chain(self.link_pairs.iter().map(|&(a, b)| Between::Links(a, b)))
-    }
-
-    /// The least that is allowed, m.
-    pub fn least_m(&self, between: Between) -> f64 {
-        match between {
-            Between::LinkAndBody(_) => self.least_from_body_m,
-            Between::Links(..) => self.least_between_links_m,
-        }
+    pub fn all(&self) -> &[Pair] {
+        &self.pairs
     }
 
     /// Whether no distance is kept.
     pub fn is_empty(&self) -> bool {
-        self.body_links.is_empty() && self.link_pairs.is_empty()
+        self.pairs.is_empty()
     }
 
-    /// Looks at every distance in a posture of the arm, given by the origins of its frames in body
-    /// axes (m): `body` and `links` are the worst places so far.
-    pub fn look(&self, origins: &[Vector3<f64>], time_s: f64, body: &mut Worst, links: &mut Worst) {
-        let segment = |link: usize| Segment { start: origins[link], end: origins[link + 1] };
-        for &link in &self.body_links {
-            let distance_m = segment(link).distance_to_point(&Vector3::zeros());
-            let subject = Some(Subject::Clearance(Between::LinkAndBody(link)));
-            body.at_least(distance_m, self.least_from_body_m, subject, Some(time_s));
-        }
-        for &(a, b) in &self.link_pairs {
-            let distance_m = segment(a).distance_to_segment(&segment(b));
-            let subject = Some(Subject::Clearance(Between::Links(a, b)));
-            links.at_least(distance_m, self.least_between_links_m, subject, Some(time_s));
+    /// A pair where the arm's frames are these, in body axes.
+    pub fn situation(&self, pair: &Pair, frames: &[Pose]) -> Situation {
+        let inner = match &pair.inner {
+            Inner::Segment(segment) => Shape::Segment(*segment),
+            Inner::Cuboid(cuboid) => Shape::Cuboid(*cuboid),
+            Inner::Solid(inboard) => Shape::Segment(self.solids[*inboard].segment(frames)),
+        };
+        let outer = self.solids[pair.outer].segment(frames);
+        Situation { inner, outer, covered_m: pair.covered_m }
+    }
+
+    /// Looks at every distance in a posture of the arm, given by its frames in body axes: `body` and
+    /// `links` are the worst places so far.
+    pub fn look(&self, frames: &[Pose], time_s: f64, body: &mut Worst, links: &mut Worst) {
+        for pair in &self.pairs {
+            let worst = if pair.is_with_base() { &mut *body } else { &mut *links };
+            let distance_m = self.situation(pair, frames).distance_m();
+            let subject = Some(Subject::Clearance(pair.between));
+            worst.at_least(distance_m, pair.least_m, subject, Some(time_s));
         }
     }
+}
+
+impl Pair {
+    /// Whether one of the two is the base.
+    pub fn is_with_base(&self) -> bool {
+        self.between.off_base().is_some()
+    }
+}
+
+impl Situation {
+    /// Distance of the surfaces, m; where segments or box and segment meet, minus the radii.
+    pub fn distance_m(&self) -> f64 {
+        let of_axes_m = match &self.inner {
+            Shape::Segment(inner) if inner.start == inner.end => {
+                self.outer.distance_to_point(&inner.start)
+            }
+            Shape::Segment(inner) => inner.distance_to_segment(&self.outer),
+            Shape::Cuboid(cuboid) => cuboid.shortest_to_segment(&self.outer).norm(),
+        };
+        of_axes_m - self.covered_m
+    }
+
+    /// What the distance of the surfaces never falls below, m: segments and boxes that meet are at zero.
+    pub fn least_m(&self) -> f64 {
+        -self.covered_m
+    }
+
+    /// The direction from the inner thing to the outer one where they are nearest; none where they meet.
+    pub fn direction(&self) -> Option<Vector3<f64>> {
+        let way = match &self.inner {
+            Shape::Segment(inner) => inner.shortest_to_segment(&self.outer),
+            Shape::Cuboid(cuboid) => cuboid.shortest_to_segment(&self.outer),
+        };
+        way.try_normalize(0.0)
+    }
+
+    /// How far the outer thing lies beyond the inner one along a direction, m; negative where it does not.
+    pub fn gap_m(&self, direction: &Vector3<f64>) -> f64 {
+        let of_segment = |segment: &Segment| {
+            let (start, end) = (segment.start.dot(direction), segment.end.dot(direction));
+            [start.min(end), start.max(end)]
+        };
+        let [_, top] = match &self.inner {
+            Shape::Segment(inner) => of_segment(inner),
+            Shape::Cuboid(cuboid) => cuboid.extent(direction),
+        };
+        let [bottom, _] = of_segment(&self.outer);
+        bottom - top - self.covered_m
+    }
+}
+
+/// Pairs with the base: the keep-out sphere's first, then those of one shape after the other.
+fn base_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<Pair> {
+    let base = &system.base;
+    let kept: Vec<usize> = (0..solids.len())
+        .filter(|&solid| match solids[solid].piece.part {
+            ArmPart::Link(link) => !system.links[link].body_exempt,
+            ArmPart::Payload => true,
+        })
+        .collect();
+    let mut pairs = Vec::new();
+    // Half the space diagonal of a cube, if nothing else is said.
+    let circumscribed_m = |side_m: f64| Vector3::repeat(side_m / 2.0).norm();
+    let of_cube_m = base.cube_side_m.filter(|_| base.keep_out.is_none()).map(circumscribed_m);
+    if let Some(radius_m) = base.keep_out_radius_m.or(of_cube_m) {
+        let center = Segment { start: Vector3::zeros(), end: Vector3::zeros() };
+        pairs.extend(kept.iter().map(|&outer| Pair {
+            between: Between::Body(solids[outer].piece),
+            outer,
+            inner: Inner::Segment(center),
+            covered_m: solids[outer].radius_m,
+            least_m: radius_m + clearance_m,
+        }));
+    }
+    for (place, shape) in base.keep_out.iter().flatten().enumerate() {
+        let (inner, radius_m) = match Fixed::new(shape) {
+            Some(Fixed::Capsule(segment, radius_m)) => (Inner::Segment(segment), radius_m),
+            Some(Fixed::Cuboid(cuboid)) => (Inner::Cuboid(cuboid), 0.0),
+            None => continue,
+        };
+        pairs.extend(kept.iter().map(|&outer| Pair {
+            between: Between::KeepOut(solids[outer].piece, place),
+            outer,
+            inner: inner.clone(),
+            covered_m: solids[outer].radius_m + radius_m,
+            least_m: clearance_m,
+        }));
+    }
+    pairs
+}
+
+/// Pairs of solids of the arm that do not share a joint.
+fn arm_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<Pair> {
+    let lengths_m: Vec<f64> = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
+    let rounding_m = ROUNDING * lengths_m.iter().sum::<f64>();
+    let place = |solid: &Solid| match solid.piece.part {
+        ArmPart::Link(link) => link,
+        ArmPart::Payload => lengths_m.len(),
+    };
+    let mut pairs = Vec::new();
+    for (inner, inboard) in solids.iter().enumerate() {
+        for (outer, outboard) in solids.iter().enumerate() {
+            if place(inboard) >= place(outboard) {
+                continue;
+            }
+            let between_m: f64 = lengths_m[place(inboard) + 1..place(outboard)].iter().sum();
+            let covered_m = inboard.radius_m + outboard.radius_m;
+            let is_on_line = inboard.piece.shape.is_none() && outboard.piece.shape.is_none();
+            let is_apart = !is_on_line || between_m > clearance_m + covered_m;
+            if is_apart && between_m > rounding_m {
+                pairs.push(Pair {
+                    between: Between::Pieces(inboard.piece, outboard.piece),
+                    outer,
+                    inner: Inner::Solid(inner),
+                    covered_m,
+                    least_m: clearance_m,
+                });
+            }
+        }
+    }
+    pairs
 }

@@ -12,12 +12,10 @@
 //!
 //! Where neither is enough, the stretch is halved.
 
-use nalgebra::Vector3;
-use righting_scenario::collision::Between;
-
+use crate::clearances::{Inner, Pair, Situation};
 use crate::joints::Joints;
 use crate::ledger::{Subject, Worst};
-use crate::model::{Segment, State};
+use crate::model::{Pose, State};
 use crate::motion_bound::Stretch;
 use crate::requirements::Requirements;
 
@@ -33,10 +31,10 @@ pub(super) struct ClosestApproach<'a> {
     joints: Joints,
     /// Largest rates in a stretch.
     rates: Vec<f64>,
-    /// Origins of the arm's frames at the beginning of the interval, at its end, and within.
-    start: Vec<Vector3<f64>>,
-    end: Vec<Vector3<f64>>,
-    within: Vec<Vector3<f64>>,
+    /// The arm's frames at the beginning of the interval, at its end, and within.
+    start: Vec<Pose>,
+    end: Vec<Pose>,
+    within: Vec<Pose>,
     looks_left: usize,
 }
 
@@ -54,7 +52,7 @@ pub(super) struct Interval<'i> {
 #[derive(Clone, Copy)]
 struct Moment {
     after_s: f64,
-    segments: [Segment; 2],
+    situation: Situation,
     distance_m: f64,
 }
 
@@ -62,15 +60,15 @@ impl<'a> ClosestApproach<'a> {
     /// Before the first interval, which begins with `start`.
     pub fn new(asked: &'a Requirements, start: &State<'_>) -> Self {
         let joints = asked.model.joint_count();
-        let mut origins = vec![Vector3::zeros(); joints + 1];
-        asked.model.origins(start.joint_angles, &mut origins);
+        let mut frames = vec![Pose::identity(); joints + 1];
+        asked.model.frames(start.joint_angles, &mut frames);
         Self {
             asked,
             joints: Joints::new(joints),
             rates: vec![0.0; joints],
-            start: origins.clone(),
-            end: origins.clone(),
-            within: origins,
+            start: frames.clone(),
+            end: frames.clone(),
+            within: frames,
             looks_left: MOST_LOOKS,
         }
     }
@@ -78,15 +76,12 @@ impl<'a> ClosestApproach<'a> {
     /// Through the next interval: enters the places where a distance falls below what is allowed.
     pub fn follow(&mut self, interval: &Interval<'_>, body: &mut Worst, links: &mut Worst) {
         let asked = self.asked;
-        asked.model.origins(interval.end.joint_angles, &mut self.end);
-        for between in asked.clearances.all() {
-            let before = Moment::new(between, &self.start, 0.0);
-            let after = Moment::new(between, &self.end, interval.duration_s);
-            let worst = match between {
-                Between::LinkAndBody(_) => &mut *body,
-                Between::Links(..) => &mut *links,
-            };
-            self.look(interval, between, &before, &after, 0, worst);
+        asked.model.frames(interval.end.joint_angles, &mut self.end);
+        for pair in asked.clearances.all() {
+            let before = self.moment(pair, &self.start, 0.0);
+            let after = self.moment(pair, &self.end, interval.duration_s);
+            let worst = if pair.is_with_base() { &mut *body } else { &mut *links };
+            self.look(interval, pair, &before, &after, 0, worst);
         }
         std::mem::swap(&mut self.start, &mut self.end);
     }
@@ -95,20 +90,20 @@ impl<'a> ClosestApproach<'a> {
     fn look(
         &mut self,
         interval: &Interval<'_>,
-        between: Between,
+        pair: &Pair,
         before: &Moment,
         after: &Moment,
         depth: usize,
         worst: &mut Worst,
     ) {
-        let least_m = self.asked.clearances.least_m(between);
+        let least_m = pair.least_m;
         let too_small_m = worst.counts_below(least_m);
-        let bound_m = self.bound_m(interval, between, before, after, too_small_m);
+        let bound_m = self.bound_m(interval, pair, before, after, too_small_m);
         // What is no number has been entered as such at the fixed places.
         if bound_m.is_nan() || bound_m >= too_small_m {
             return;
         }
-        let subject = Some(Subject::Clearance(between));
+        let subject = Some(Subject::Clearance(pair.between));
         if depth == DEEPEST || self.looks_left == 0 || bound_m.is_infinite() {
             worst.at_least(bound_m, least_m, subject, Some(interval.start_s + before.after_s));
             return;
@@ -116,11 +111,16 @@ impl<'a> ClosestApproach<'a> {
         self.looks_left -= 1;
         let after_s = 0.5 * (before.after_s + after.after_s);
         self.joints.move_on(&interval.start, interval.accelerations, after_s);
-        self.asked.model.origins(&self.joints.angles, &mut self.within);
-        let middle = Moment::new(between, &self.within, after_s);
+        self.asked.model.frames(&self.joints.angles, &mut self.within);
+        let middle = self.moment(pair, &self.within, after_s);
         worst.at_least(middle.distance_m, least_m, subject, Some(interval.start_s + after_s));
-        self.look(interval, between, before, &middle, depth + 1, worst);
-        self.look(interval, between, &middle, after, depth + 1, worst);
+        self.look(interval, pair, before, &middle, depth + 1, worst);
+        self.look(interval, pair, &middle, after, depth + 1, worst);
+    }
+
+    fn moment(&self, pair: &Pair, frames: &[Pose], after_s: f64) -> Moment {
+        let situation = self.asked.clearances.situation(pair, frames);
+        Moment { after_s, situation, distance_m: situation.distance_m() }
     }
 
     /// The distance is no less between the two moments. The better bound is only looked for where the
@@ -128,7 +128,7 @@ impl<'a> ClosestApproach<'a> {
     fn bound_m(
         &mut self,
         interval: &Interval<'_>,
-        between: Between,
+        pair: &Pair,
         before: &Moment,
         after: &Moment,
         enough_m: f64,
@@ -144,9 +144,9 @@ impl<'a> ClosestApproach<'a> {
             accelerations: interval.accelerations,
             duration_s: after.after_s - before.after_s,
         };
-        let (inboard, outboard) = match between {
-            Between::LinkAndBody(link) => (None, link),
-            Between::Links(a, b) => (Some(a), b),
+        let (inboard, outboard) = match pair.inner {
+            Inner::Segment(_) | Inner::Cuboid(_) => (None, pair.outer),
+            Inner::Solid(inboard) => (Some(inboard), pair.outer),
         };
         let travel_m = stretch.travel_m(outboard, inboard);
         let by_travel_m = 0.5 * (before.distance_m + after.distance_m - travel_m);
@@ -161,36 +161,14 @@ impl<'a> ClosestApproach<'a> {
 }
 
 impl Moment {
-    fn new(between: Between, origins: &[Vector3<f64>], after_s: f64) -> Self {
-        let segment = |link: usize| Segment { start: origins[link], end: origins[link + 1] };
-        let center = Vector3::zeros();
-        let (segments, distance_m) = match between {
-            Between::LinkAndBody(link) => (
-                [Segment { start: center, end: center }, segment(link)],
-                segment(link).distance_to_point(&center),
-            ),
-            Between::Links(a, b) => {
-                let segments = [segment(a), segment(b)];
-                (segments, segments[0].distance_to_segment(&segments[1]))
-            }
-        };
-        Self { after_s, segments, distance_m }
-    }
-
     /// The gap between two planes that part the two things now and at another moment, m, across the
     /// shortest way between them at a third; negative where those planes do not part them.
     fn gap_m(&self, other: &Self, across: &Self) -> f64 {
-        let [first, second] = &across.segments;
-        let Some(normal) = first.shortest_to_segment(second).try_normalize(0.0) else {
-            return 0.0;
-        };
-        let gap_m = |moment: &Self| {
-            let [first, second] = moment.segments.map(|segment| {
-                let (start, end) = (segment.start.dot(&normal), segment.end.dot(&normal));
-                (start.min(end), start.max(end))
-            });
-            second.0 - first.1
-        };
-        gap_m(self).min(gap_m(other))
+        match across.situation.direction() {
+            Some(direction) => {
+                self.situation.gap_m(&direction).min(other.situation.gap_m(&direction))
+            }
+            None => across.situation.least_m(),
+        }
     }
 }

@@ -57,6 +57,7 @@
 
 #![forbid(unsafe_code)]
 
+mod bodies;
 mod clearances;
 mod closest_approach;
 mod directory;

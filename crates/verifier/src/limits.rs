@@ -1,11 +1,11 @@
 //! Joint limits and clearances, at the nodes and between them.
 
-use nalgebra::Vector3;
 use righting_results::trajectory::Trajectory;
 
 use crate::closest_approach::{ClosestApproach, Interval};
 use crate::joints::Joints;
 use crate::ledger::{Ledger, Subject, Worst};
+use crate::model::Pose;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 use crate::tolerances::LimitTolerances;
@@ -20,8 +20,8 @@ struct Limits<'a> {
     rate: Worst,
     body: Worst,
     links: Worst,
-    /// Origins of the arm's frames in the posture looked at last.
-    origins: Vec<Vector3<f64>>,
+    /// The arm's frames in the posture looked at last.
+    frames: Vec<Pose>,
 }
 
 pub(super) fn check(
@@ -106,7 +106,7 @@ impl<'a> Limits<'a> {
             rate: Worst::new(rate, "rad/s", tolerances.rate_rad_s),
             body: Worst::new(body, "m", tolerances.distance_m),
             links: Worst::new(links, "m", tolerances.distance_m),
-            origins: vec![Vector3::zeros(); asked.model.joint_count() + 1],
+            frames: vec![Pose::identity(); asked.model.joint_count() + 1],
         }
     }
 
@@ -119,8 +119,8 @@ impl<'a> Limits<'a> {
         }
         let Requirements { model, clearances, .. } = self.asked;
         if !clearances.is_empty() {
-            model.origins(angles_rad, &mut self.origins);
-            clearances.look(&self.origins, time_s, &mut self.body, &mut self.links);
+            model.frames(angles_rad, &mut self.frames);
+            clearances.look(&self.frames, time_s, &mut self.body, &mut self.links);
         }
     }
 

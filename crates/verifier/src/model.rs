@@ -53,8 +53,10 @@
 //! ```
 
 mod body;
+mod cuboid;
 mod dynamics;
 mod motion;
+mod pose;
 mod row;
 mod segment;
 mod state;
@@ -65,8 +67,10 @@ use righting_scenario::file;
 use body::Body;
 use row::{Convention, Row};
 
+pub use cuboid::Cuboid;
 pub use dynamics::{BaseAcceleration, MountLoad};
 pub use motion::{BodyMotion, FrameMotion, Motion};
+pub use pose::Pose;
 pub use segment::Segment;
 pub use state::State;
 
@@ -125,20 +129,17 @@ impl Model {
         self.total_mass
     }
 
-    /// Writes the origins of frames 0 to j at joint angles `q` (j, rad), in body axes from the base's
-    /// center of mass (m), into `origins` (j + 1). Link i is the straight segment from origin i−1 to
-    /// origin i.
+    /// Writes where frames 0 to j are at joint angles `q` (j, rad), in body axes from the base's center of
+    /// mass (m), into `frames` (j + 1). Link i is the straight segment from origin i−1 to origin i.
     ///
     /// # Panics
     /// A slice has another length.
-    pub fn origins(&self, q: &[f64], origins: &mut [Vector3<f64>]) {
-        assert_eq!((q.len(), origins.len()), (self.joint_count(), self.joint_count() + 1));
-        let mut rotation = self.mount_rotation;
-        origins[0] = self.mount_position;
+    pub fn frames(&self, q: &[f64], frames: &mut [Pose]) {
+        assert_eq!((q.len(), frames.len()), (self.joint_count(), self.joint_count() + 1));
+        frames[0] = Pose { rotation: self.mount_rotation, origin: self.mount_position };
         for (i, (row, angle)) in self.rows.iter().zip(q).enumerate() {
-            let (next, arm) = row.follow(self.convention, &rotation, *angle);
-            origins[i + 1] = origins[i] + arm;
-            rotation = next;
+            let (rotation, arm) = row.follow(self.convention, &frames[i].rotation, *angle);
+            frames[i + 1] = Pose { rotation, origin: frames[i].origin + arm };
         }
     }
 }

@@ -7,20 +7,22 @@
 //! p̈ = Σ_j q̈_j e_j × (p − o_j) + Σ_ij q̇_i q̇_j e_min × (e_max × (p − o_max))    min, max of i and j
 //! ```
 //!
-//! and |p − o_j| ≤ R_j, the lengths of the links from joint j to the end of that one. So |ṗ| is at most
-//! Σ R_j |q̇_j|, and |p̈| at most Σ R_j |q̈_j| + (Σ |q̇_j|) (Σ R_j |q̇_j|).
+//! and |p − o_j| ≤ R_j, the lengths of the links from joint j to the end of that one, or to the frame that p
+//! moves with and from there to p. So |ṗ| is at most Σ R_j |q̇_j|, and |p̈| at most Σ R_j |q̈_j| + (Σ |q̇_j|) (Σ R_j |q̇_j|).
 
 use righting_scenario::file;
 
-/// The R_j of every link.
+use crate::bodies::{Axis, Solid};
+
+/// The R_j of every solid.
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
-    /// Of each link: one a joint that moves it, in order, m.
-    of_links: Vec<Vec<f64>>,
+    /// Of each solid: one a joint that moves it, in order, m.
+    of_solids: Vec<Vec<f64>>,
 }
 
 impl Reach {
-    pub fn new(system: &file::System) -> Self {
+    pub fn new(system: &file::System, solids: &[Solid]) -> Self {
         let lengths_m: Vec<f64> =
             system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
         // The axis of joint i goes through the inboard end of link i, which it moves, or, by Craig's
@@ -29,11 +31,18 @@ impl Reach {
             file::DhConvention::Standard => 0,
             file::DhConvention::Modified => 1,
         };
-        let of_link = |link: usize| {
-            let joints = 0..(link + 1 - first_moved);
-            joints.map(|joint| lengths_m[joint + first_moved..=link].iter().sum()).collect()
+        let of_solid = |solid: &Solid| {
+            let (joints, last, beyond_m) = match &solid.axis {
+                Axis::Link(link) => (link + 1 - first_moved, link + 1, 0.0),
+                Axis::InFrame(frame, [start, end]) => {
+                    (*frame, *frame, start.norm().max(end.norm()))
+                }
+            };
+            let to_frame =
+                |joint: usize| lengths_m.get(joint + first_moved..last).unwrap_or_default();
+            (0..joints).map(|joint| to_frame(joint).iter().sum::<f64>() + beyond_m).collect()
         };
-        Self { of_links: (0..lengths_m.len()).map(of_link).collect() }
+        Self { of_solids: solids.iter().map(of_solid).collect() }
     }
 }
 
@@ -48,19 +57,19 @@ pub(super) struct Stretch<'a> {
 }
 
 impl Stretch<'_> {
-    /// The most that a point of `link` moves as seen from another link farther in, or from the base, m.
-    pub fn travel_m(&self, link: usize, seen_from: Option<usize>) -> f64 {
-        let reach = &self.reach.of_links;
+    /// The most that a point of a solid moves as seen from another one farther in, or from the base, m.
+    pub fn travel_m(&self, solid: usize, seen_from: Option<usize>) -> f64 {
+        let reach = &self.reach.of_solids;
         let shared = seen_from.map_or(0, |other| reach[other].len());
-        let joints = self.rates.iter().zip(&reach[link]).skip(shared);
+        let joints = self.rates.iter().zip(&reach[solid]).skip(shared);
         self.duration_s * joints.map(|(rate, reach_m)| rate * reach_m).sum::<f64>()
     }
 
-    /// The most that a point of `link` is off the straight way between where it is at the beginning and
+    /// The most that a point of a solid is off the straight way between where it is at the beginning and
     /// at the end, gone at constant speed, as seen from the base, m: the error of linear interpolation,
     /// max |p̈| Δt²/8.
-    pub fn bend_m(&self, link: usize) -> f64 {
-        let reach = &self.reach.of_links[link];
+    pub fn bend_m(&self, solid: usize) -> f64 {
+        let reach = &self.reach.of_solids[solid];
         let weighted = |values: &[f64]| -> f64 {
             values.iter().zip(reach).map(|(value, reach_m)| value.abs() * reach_m).sum()
         };

@@ -52,6 +52,7 @@ impl Requirements {
         let model = Model::new(system);
         let start = start(&model, &file.initial);
         let clearance_m = file.collision.clearance_m.unwrap_or(0.0);
+        let clearances = Clearances::new(system, clearance_m);
         let duration_s = scenario.horizon().duration_s;
         Self {
             tolerances: Tolerances::new(
@@ -67,9 +68,9 @@ impl Requirements {
             horizon: scenario.horizon(),
             joint_limits: system.links.iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),
-            clearances: Clearances::new(system, clearance_m),
             cones: file.pointing.iter().map(Cone::new).collect(),
-            reach: Reach::new(system),
+            reach: Reach::new(system, &clearances.solids),
+            clearances,
             model,
             start,
         }

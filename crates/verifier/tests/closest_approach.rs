@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use nalgebra::Vector3;
 use proptest::prelude::*;
 use righting_results::{Check, Trajectory, Verification};
+use righting_scenario::collision::Clearance;
 use righting_scenario::{Scenario, file};
 use righting_test_support::arms::arm;
+use righting_test_support::bodies::bodies;
 use righting_test_support::motion;
 use righting_test_support::thin_links::pendulum;
-use righting_verifier::model::{Model, Segment};
 use righting_verifier::verify;
 
 const LINKS: &str = "clearance between links between nodes";
@@ -29,12 +29,10 @@ fn check<'a>(verification: &'a Verification, name: &str) -> &'a Check {
     verification.check(name).unwrap_or_else(|| panic!("no check is called {name}"))
 }
 
-/// The distances that are kept, at `samples` places in every interval, as what is past the least one:
-/// between links and from the body.
+/// The distances that are kept by the planner's model, at `samples` places in every interval, as what is
+/// past the least one: between links and from the body.
 fn sampled_excess(scenario: &Scenario, plan: &Trajectory, samples: usize) -> [f64; 2] {
-    let model = Model::new(scenario.resolved_system());
-    let collision = scenario.collision();
-    let mut origins = vec![Vector3::zeros(); model.joint_count() + 1];
+    let model = &scenario.system().model;
     let mut worst = [f64::NEG_INFINITY; 2];
     let step_s = scenario.horizon().step_s();
     for (node, interval) in plan.nodes().iter().zip(plan.intervals()) {
@@ -47,15 +45,13 @@ fn sampled_excess(scenario: &Scenario, plan: &Trajectory, samples: usize) -> [f6
                     node.joint_angles_rad[joint] + rate * after_s
                 })
                 .collect();
-            model.origins(&angles, &mut origins);
-            let segment = |link: usize| Segment { start: origins[link], end: origins[link + 1] };
-            for &(a, b) in &collision.link_pairs {
-                let distance_m = segment(a).distance_to_segment(&segment(b));
-                worst[0] = worst[0].max(collision.clearance_m - distance_m);
-            }
-            for &link in &collision.body_links {
-                let distance_m = segment(link).distance_to_point(&Vector3::zeros());
-                worst[1] = worst[1].max(collision.body_distance_m - distance_m);
+            let posture = model.kinematics(&angles);
+            for pair in &scenario.collision().pairs {
+                let which = usize::from(pair.between.off_base().is_some());
+                let Clearance { distance_m, least_m, .. } = pair.clearance(&posture);
+                // Inside a box, theirs says how deep.
+                let distance_m = distance_m.max(-pair.covered_m());
+                worst[which] = worst[which].max(least_m - distance_m);
             }
         }
     }
@@ -95,18 +91,21 @@ fn the_tolerance_parts_those_that_pass_from_those_that_do_not() {
     assert!(!off_by_m(0.0));
 }
 
-/// Every arm moves from rest to rest by controls of its own.
+/// Every arm moves from rest to rest by controls of its own, past shapes of the base or not.
 fn moving_arm() -> impl Strategy<Value = (Scenario, Trajectory)> {
     let pushes = prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 3), 6);
-    (arm(2..=6), pushes).prop_filter_map(
+    (arm(2..=6), pushes, prop::option::of(bodies())).prop_filter_map(
         "a start that keeps its clearances",
-        |(scenario, pushes)| {
+        |(scenario, pushes, bodies)| {
             let mut file = scenario.resolved().clone();
             file.horizon = file::Horizon { duration_s: file::Duration::Given(6.0), steps: 6.0 };
             file.collision.clearance_m = Some(CLEARANCE_M);
             file.initial.joint_angles_deg.iter_mut().zip(0..).for_each(|(angle, joint)| {
                 *angle = 50.0 * f64::from(joint % 3) - 40.0;
             });
+            if let Some(bodies) = bodies {
+                bodies.give(&mut file);
+            }
             let scenario = Scenario::from_file(file, Path::new("moving arm.json")).ok()?;
             let joints = scenario.system().joint_count();
             let control = |k: usize| (0..joints).map(|joint| pushes[joint][k]).collect();

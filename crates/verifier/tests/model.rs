@@ -9,8 +9,9 @@ use proptest::prelude::*;
 use righting_multibody as multibody;
 use righting_scenario::{Scenario, file};
 use righting_test_support::arms::{self, arm};
+use righting_test_support::bodies::bodies;
 use righting_test_support::{motion, scenarios};
-use righting_verifier::model::{BaseAcceleration, Model, Motion, Segment, State};
+use righting_verifier::model::{BaseAcceleration, Cuboid, Model, Motion, Pose, Segment, State};
 use righting_verifier::verify;
 use serde::Deserialize;
 
@@ -123,10 +124,12 @@ proptest! {
         let system = scenario.system();
         let q = &sample.joints[0];
         let posture = system.model.kinematics(q);
-        let mut origins = vec![Vector3::zeros(); q.len() + 1];
-        Model::new(scenario.resolved_system()).origins(q, &mut origins);
-        for (origin, frame) in origins.iter().zip(&posture.frames) {
+        let mut frames = vec![Pose::identity(); q.len() + 1];
+        Model::new(scenario.resolved_system()).frames(q, &mut frames);
+        for (Pose { rotation, origin }, frame) in frames.iter().zip(&posture.frames) {
             assert_near("origin", origin.as_slice(), frame.origin.as_slice(), 1e-13, 1.0);
+            let axes = frame.rotation();
+            assert_near("axes", rotation.as_slice(), axes.as_slice(), 1e-13, 1.0);
         }
     }
 
@@ -136,6 +139,7 @@ proptest! {
     fn a_motion_by_the_planner_s_model_passes(
         (scenario, sample) in moving_arm(),
         clearance_m in 0.0..0.2_f64,
+        bodies in prop::option::of(bodies()),
     ) {
         let mut resolved = scenario.resolved().clone();
         let degrees = |values: &[f64]| values.iter().map(|x| x.to_degrees()).collect::<Vec<_>>();
@@ -153,6 +157,9 @@ proptest! {
         };
         resolved.horizon = file::Horizon { duration_s: file::Duration::Given(0.2), steps: 4.0 };
         resolved.collision.clearance_m = Some(clearance_m);
+        if let Some(bodies) = bodies {
+            bodies.give(&mut resolved);
+        }
         // A start inside the clearance is refused when the scenario is read.
         let Ok(scenario) = Scenario::from_file(resolved, Path::new("arm.json")) else {
             return Ok(());
@@ -169,10 +176,11 @@ proptest! {
             .iter()
             .flat_map(|node| {
                 let posture = scenario.system().model.kinematics(&node.joint_angles_rad);
-                let clearances: Vec<_> = scenario.collision().clearances(&posture).collect();
-                clearances
+                let pairs = scenario.collision().pairs.iter();
+                pairs.map(move |pair| (pair.clearance(&posture), pair.covered_m()))
             })
-            .map(|clearance| clearance.distance_m - clearance.least_m)
+            // Inside a box, theirs says how deep.
+            .map(|(found, covered_m)| found.distance_m.max(-covered_m) - found.least_m)
             .fold(f64::INFINITY, f64::min);
         let ours = ["clearance from body at nodes", "clearance between links at nodes"]
             .iter()
@@ -180,6 +188,28 @@ proptest! {
             .map(|check| check.value - check.limit)
             .fold(f64::INFINITY, f64::min);
         prop_assert!(ours == closest || (ours - closest).abs() < 1e-9, "{ours} {closest}");
+    }
+
+    #[test]
+    fn distances_from_boxes_are_the_planner_s(
+        [low, size, start, end] in prop::array::uniform4(prop::array::uniform3(0.0..1.0_f64)),
+        lattice in prop::option::of(1_u8..4),
+    ) {
+        // On a lattice segments are often parallel to edges, in a face, or of no length.
+        let point = |entries: [f64; 3]| match lattice {
+            Some(count) => Vector3::from(entries.map(|entry| (entry * f64::from(count)).round())),
+            None => Vector3::from(entries),
+        };
+        let [low, size, start, end] = [low, size, start, end].map(point);
+        let ours = Cuboid { low, high: low + size };
+        let theirs = multibody::Cuboid { center_m: low + size / 2.0, half_m: size / 2.0 };
+        let way = ours.shortest_to_segment(&Segment { start, end });
+        let segment = multibody::Segment::new(start, end);
+        prop_assert!((way.norm() - theirs.signed_distance(&segment).max(0.0)).abs() < 1e-8);
+        prop_assert!((way.norm() - theirs.shortest_to_segment(&segment).norm()).abs() < 1e-8);
+        let direction = Vector3::new(1.0, -2.0, 0.5).normalize();
+        let (ours, theirs) = (ours.extent(&direction), theirs.extent_m(&direction));
+        prop_assert!((ours[0] - theirs[0]).abs() < 1e-14 && (ours[1] - theirs[1]).abs() < 1e-14);
     }
 
     #[test]

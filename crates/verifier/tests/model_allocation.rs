@@ -5,9 +5,8 @@ mod counting;
 
 use std::path::Path;
 
-use nalgebra::Vector3;
 use righting_scenario::Scenario;
-use righting_verifier::model::{Model, Motion, State};
+use righting_verifier::model::{Model, Motion, Pose, State};
 
 use counting::allocations;
 
@@ -21,11 +20,11 @@ fn motion_and_torques_allocate_nothing() {
     let u = vec![0.1; 7];
     let mut motion = Motion::new(&model);
     let (mut rate, mut torques) = (vec![0.0; x.len()], vec![0.0; 7]);
-    let mut origins = vec![Vector3::zeros(); 8];
+    let mut frames = vec![Pose::identity(); 8];
     let before = allocations();
     model.state_derivative(&x, &u, &mut motion, &mut rate);
     model.joint_torques(&State::from_slice(&x), &u, &mut motion, &mut torques);
-    model.origins(&x[13..20], &mut origins);
+    model.frames(&x[13..20], &mut frames);
     assert!(motion.angular_momentum().norm() > 0.0);
     assert_eq!(allocations(), before);
     assert!(before > 0);

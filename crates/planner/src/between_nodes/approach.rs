@@ -2,15 +2,16 @@
 //!
 //! Over a stretch of time a distance is no less than the gap between two parallel planes that part the two
 //! things at its beginning and at its end, less what their points can be off the straight way between:
-//! max |p̈| Δt²/8 for each (the error of linear interpolation). With R_j the lengths from joint j to the
-//! end of a link, |p̈| ≤ Σ R_j |q̈_j| + (Σ |q̇_j|)(Σ R_j |q̇_j|). Where that is not enough, the stretch is
+//! max |p̈| Δt²/8 for each (the error of linear interpolation). With R_j how far a point can be from joint j,
+//! |p̈| ≤ Σ R_j |q̈_j| + (Σ |q̇_j|)(Σ R_j |q̇_j|). Where that is not enough, the stretch is
 //! halved, so that links that pass through each other between two places are found.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use righting_multibody::{DhConvention, Segment, System};
-use righting_scenario::collision::Between;
+use righting_multibody::{Core, Cuboid, Kinematics, Segment};
+use righting_scenario::bodies::KeepOut;
+use righting_scenario::collision::{Other, Pair};
 
 use super::{PassedClearance, Step};
 use crate::formulation::Clearances;
@@ -27,18 +28,20 @@ pub(super) struct Approach<'a> {
     clearances: &'a Clearances,
     /// How much of a clearance may be lacking.
     lacking: f64,
-    /// R_j of each link, one a joint that moves it.
-    reach: Vec<Vec<f64>>,
-    /// The links where the step ends that was followed last.
-    links: Vec<Segment<f64>>,
+    /// Of each clearance, R_j of what it has of the arm: of the outer thing, then of the inner one if that
+    /// moves too; one a joint that moves it.
+    reach: Vec<Vec<Vec<f64>>>,
+    /// The arm where the step ends that was followed last.
+    posture: Option<Kinematics<f64>>,
     looks_left: usize,
 }
 
-/// The two things of a clearance at a time after the beginning of a step.
+/// The two things of a clearance at a time after the beginning of a step, without their radii.
 #[derive(Clone)]
 struct Moment {
     after: f64,
-    things: [Segment<f64>; 2],
+    inner: Thing,
+    outer: Segment<f64>,
     /// From the nearest place of the first to that of the second.
     shortest: Vector3<f64>,
 }
@@ -48,8 +51,8 @@ impl<'a> Approach<'a> {
         Self {
             clearances,
             lacking,
-            reach: reach(&clearances.system),
-            links: Vec::new(),
+            reach: (0..clearances.len()).map(|place| reach(clearances, place)).collect(),
+            posture: None,
             looks_left: MOST_LOOKS,
         }
     }
@@ -66,20 +69,18 @@ impl<'a> Approach<'a> {
             return;
         }
         let system = &self.clearances.system;
-        if self.links.is_empty() {
-            self.links = system.kinematics(step.angles).segments;
-        }
-        let start = std::mem::replace(&mut self.links, system.kinematics(end).segments);
+        let start = self.posture.take().unwrap_or_else(|| system.kinematics(step.angles));
+        let end = system.kinematics(end);
         for place in 0..self.clearances.len() {
-            let between = self.clearances.between(place);
-            let least = self.clearances.least_m(place);
+            let pair = self.clearances.pair(place);
+            let least = pair.least_of_cores_m();
             let enough = least - self.lacking;
             if enough <= 0.0 {
                 continue;
             }
-            let before = Moment::new(between, &start, 0.0);
-            let after = Moment::new(between, &self.links, step.duration);
-            let nearest = self.nearest(step, between, [&before, &after], enough, DEEPEST);
+            let before = Moment::new(pair, &start, 0.0);
+            let after = Moment::new(pair, &end, step.duration);
+            let nearest = self.nearest(step, place, [&before, &after], enough, DEEPEST);
             if let Some(nearest) = nearest.filter(|&nearest| nearest < enough) {
                 let parts = self.parts(least - nearest, after.moved_since(&before), enough);
                 let worst = passed.entry(place).or_default();
@@ -87,6 +88,7 @@ impl<'a> Approach<'a> {
                 worst.is_crossing |= nearest < 0.5 * least;
             }
         }
+        self.posture = Some(end);
     }
 
     /// The least distance between two moments as far as it is seen; none where it is known to be no less
@@ -94,13 +96,13 @@ impl<'a> Approach<'a> {
     fn nearest(
         &mut self,
         step: &Step<'_>,
-        between: Between,
+        place: usize,
         [before, after]: [&Moment; 2],
         enough: f64,
         depth: usize,
     ) -> Option<f64> {
         let bound = before.gap(after, &before.shortest).max(before.gap(after, &after.shortest))
-            - self.bend(step, between, before.after, after.after);
+            - self.bend(step, place, before.after, after.after);
         if bound >= enough {
             return None;
         }
@@ -116,37 +118,32 @@ impl<'a> Approach<'a> {
         let middle = 0.5 * (before.after + after.after);
         let posture: Vec<f64> =
             (0..step.angles.len()).map(|joint| step.angle(joint, middle)).collect();
-        let links = self.clearances.system.kinematics(&posture).segments;
-        let middle = Moment::new(between, &links, middle);
+        let posture = self.clearances.system.kinematics(&posture);
+        let middle = Moment::new(self.clearances.pair(place), &posture, middle);
         let halves = [[before, &middle], [&middle, after]];
         let found = halves
             .into_iter()
-            .filter_map(|half| self.nearest(step, between, half, enough, depth - 1))
+            .filter_map(|half| self.nearest(step, place, half, enough, depth - 1))
             .fold(f64::INFINITY, f64::min);
         found.is_finite().then_some(found)
     }
 
     /// The most that points of both things are off their straight ways in a part of a step.
-    fn bend(&self, step: &Step<'_>, between: Between, from: f64, to: f64) -> f64 {
-        let (first, second) = match between {
-            Between::LinkAndBody(link) => (None, link),
-            Between::Links(a, b) => (Some(a), b),
-        };
+    fn bend(&self, step: &Step<'_>, place: usize, from: f64, to: f64) -> f64 {
         let largest = |joint: usize| {
             let at = |after: f64| (step.rates[joint] + after * step.accelerations[joint]).abs();
             at(from).max(at(to))
         };
-        let of_link = |link: usize| {
-            let reach = self.reach[link].iter().enumerate();
+        let of_thing = |reach: &Vec<f64>| {
             let mut sums = [0.0; 3];
-            for (joint, reach) in reach {
+            for (joint, reach) in reach.iter().enumerate() {
                 sums[0] += reach * step.accelerations[joint].abs();
                 sums[1] += largest(joint);
                 sums[2] += reach * largest(joint);
             }
             (sums[0] + sums[1] * sums[2]) * (to - from).powi(2) / 8.0
         };
-        of_link(second) + first.map_or(0.0, of_link)
+        self.reach[place].iter().map(of_thing).sum()
     }
 
     /// Between how many equal parts of a step a clearance should be stated that is passed by `lacking`
@@ -161,16 +158,52 @@ impl<'a> Approach<'a> {
     }
 }
 
+/// The inner thing of a clearance.
+#[derive(Clone)]
+enum Thing {
+    Segment(Segment<f64>),
+    Cuboid(Cuboid),
+}
+
+impl Thing {
+    /// Least and largest coordinate along a direction of length one.
+    fn extent(&self, direction: &Vector3<f64>) -> [f64; 2] {
+        match self {
+            Self::Segment(segment) => extent(segment, direction),
+            Self::Cuboid(cuboid) => cuboid.extent_m(direction),
+        }
+    }
+
+    /// The ends of a segment; a box does not move, whatever is taken of it.
+    fn ends(&self) -> [Vector3<f64>; 2] {
+        match self {
+            Self::Segment(segment) => [segment.start, segment.end()],
+            Self::Cuboid(cuboid) => [cuboid.center_m; 2],
+        }
+    }
+}
+
+fn extent(segment: &Segment<f64>, direction: &Vector3<f64>) -> [f64; 2] {
+    let (start, end) = (segment.start.dot(direction), segment.end().dot(direction));
+    [start.min(end), start.max(end)]
+}
+
 impl Moment {
-    fn new(between: Between, links: &[Segment<f64>], after: f64) -> Self {
-        let things = match between {
-            Between::LinkAndBody(link) => {
-                [Segment::new(Vector3::zeros(), Vector3::zeros()), links[link].clone()]
+    fn new(pair: &Pair, posture: &Kinematics<f64>, after: f64) -> Self {
+        let outer = posture.core(&pair.solid.core);
+        let inner = match &pair.other {
+            Other::Center => Thing::Segment(Segment::new(Vector3::zeros(), Vector3::zeros())),
+            Other::KeepOut(KeepOut::Capsule { ends_m: [from, to], .. }) => {
+                Thing::Segment(Segment::new(*from, *to))
             }
-            Between::Links(a, b) => [links[a].clone(), links[b].clone()],
+            Other::KeepOut(KeepOut::Cuboid(cuboid)) => Thing::Cuboid(*cuboid),
+            Other::Solid(inboard) => Thing::Segment(posture.core(&inboard.core)),
         };
-        let shortest = things[1].shortest_from_segment(&things[0]);
-        Self { after, things, shortest }
+        let shortest = match &inner {
+            Thing::Segment(inner) => outer.shortest_from_segment(inner),
+            Thing::Cuboid(cuboid) => cuboid.shortest_to_segment(&outer),
+        };
+        Self { after, inner, outer, shortest }
     }
 
     /// The gap between two planes across `normal` that part the things now and at another moment;
@@ -178,12 +211,9 @@ impl Moment {
     fn gap(&self, other: &Self, normal: &Vector3<f64>) -> f64 {
         let Some(normal) = normal.try_normalize(0.0) else { return 0.0 };
         let gap = |moment: &Self| {
-            let [first, second] = [0, 1].map(|thing| {
-                let segment = &moment.things[thing];
-                let (start, end) = (segment.start.dot(&normal), segment.end().dot(&normal));
-                (start.min(end), start.max(end))
-            });
-            second.0 - first.1
+            let ([_, top], [bottom, _]) =
+                (moment.inner.extent(&normal), extent(&moment.outer, &normal));
+            bottom - top
         };
         gap(self).min(gap(other))
     }
@@ -191,8 +221,7 @@ impl Moment {
     /// How far an end of the one thing has moved at most as seen from an end of the other.
     fn moved_since(&self, other: &Self) -> f64 {
         let ends = |moment: &Self| {
-            let [a, b] =
-                [0, 1].map(|thing| [moment.things[thing].start, moment.things[thing].end()]);
+            let (a, b) = (moment.inner.ends(), [moment.outer.start, moment.outer.end()]);
             [b[0] - a[0], b[0] - a[1], b[1] - a[0], b[1] - a[1]]
         };
         let moved = ends(self).into_iter().zip(ends(other)).map(|(now, then)| (now - then).norm());
@@ -200,18 +229,12 @@ impl Moment {
     }
 }
 
-/// Of each link the lengths from each joint that moves it to its end.
-fn reach(system: &System) -> Vec<Vec<f64>> {
-    let lengths: Vec<f64> = system.links().iter().map(|link| link.length_m()).collect();
-    // The first link beyond joint j: its own, or by Craig's convention the next.
-    let first = match system.convention() {
-        DhConvention::Standard => 0,
-        DhConvention::Modified => 1,
-    };
-    (0..lengths.len())
-        .map(|link| {
-            let joints = 0..(link + 1 - first);
-            joints.map(|joint| lengths[joint + first..=link].iter().sum()).collect()
-        })
-        .collect()
+/// R_j of what a clearance has of the arm.
+fn reach(clearances: &Clearances, place: usize) -> Vec<Vec<f64>> {
+    let pair = clearances.pair(place);
+    let reach = |core: &Core| clearances.system.reach_m(core);
+    match &pair.other {
+        Other::Solid(inboard) => vec![reach(&pair.solid.core), reach(&inboard.core)],
+        Other::Center | Other::KeepOut(_) => vec![reach(&pair.solid.core)],
+    }
 }

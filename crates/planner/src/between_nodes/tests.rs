@@ -45,7 +45,7 @@ fn links_that_pass_through_each_other_between_nodes_are_found() {
     let clearances = Clearances::new(&scenario);
     assert_eq!(passed.clearances.len(), 1, "{passed:?}");
     let (&place, clearance) = passed.clearances.first_key_value().unwrap();
-    assert_eq!(clearances.between(place), Between::Links(0, 3));
+    assert_eq!(clearances.between(place), Between::links(0, 3));
     assert!(clearance.is_crossing);
     assert!(clearance.parts > 2, "{clearance:?}");
     assert!(passed.is_crossing());

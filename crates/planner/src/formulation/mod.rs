@@ -8,9 +8,10 @@
 //!
 //! (the paper's equations 6–14), w_T T where the duration T is free, and q_N as far as the scenario gives the
 //! posture at the end. The desired position, velocity, rates and joint angles are those of the system at rest
-//! where it starts, or ends. Distances are squared: the feasible set is the same, and the square is smooth where
-//! two links meet.
+//! where it starts, or ends. Distances of capsules are squared: the feasible set is the same, and the square is
+//! smooth where two links meet. Those of boxes are signed, so that they say how to get out.
 
+mod clearances;
 mod cones;
 mod coordinates;
 mod loads;
@@ -19,18 +20,15 @@ mod stage_limits;
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
-
-use righting_multibody::{Quaternion, State, System};
+use righting_multibody::{Quaternion, State};
 use righting_ocp::{ComponentBounds, ControlProblem};
 use righting_scalar::Scalar;
-use righting_symbolic::{Expr, trace};
 
+pub(crate) use clearances::Clearances;
 pub(crate) use cones::Cones;
 pub(crate) use coordinates::Coordinates;
 pub(crate) use loads::Loads;
 use posture::EndPosture;
-use righting_scenario::collision::{Between, CollisionModel};
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use stage_limits::StageLimits;
@@ -111,7 +109,7 @@ impl FormulatedManeuver {
             .control_bounds(ComponentBounds::symmetric(&accelerations))
             .path_constraints(path_bounds, move |x| {
                 let (coordinates, clearances, cones) = &path;
-                let mut values = clearances.squared_distances(coordinates.joint_angles(x));
+                let mut values = clearances.distances(coordinates.joint_angles(x));
                 values.extend(cones.cosines(coordinates, x));
                 values
             })
@@ -168,120 +166,6 @@ impl Goal {
             .into_iter()
             .filter(|(weight, _)| *weight > 0.0)
             .fold(T::from(0.0), |sum, (weight, term)| sum + term * weight)
-    }
-}
-
-/// The optimizers relax bounds of one or less by 1e-8 and leave residuals up to that. Where a distance may be
-/// less than this share of the system's size, that shows, …
-const SMALL: f64 = 0.025;
-/// … so this much more is asked of its square, …
-const RELAXED: f64 = 2e-8;
-/// … measured by the size times so many times the distance, if that is less than the size's square. Measured
-/// by the distance's own square the solves take 2.6 times the iterations.
-const RELATIVE_TO: f64 = 200.0;
-
-/// The squared distances that the joint angles decide, with their smallest values.
-#[derive(Clone)]
-pub(crate) struct Clearances {
-    pub(crate) system: Arc<System>,
-    collision: CollisionModel,
-    /// Which of all squared distances depend on the joint angles.
-    varying: Vec<usize>,
-    /// Whether each is stated relative to the least that is allowed: the optimizer's tolerances are
-    /// absolute, and a clearance may be a small part of the system. The paper's are not.
-    is_relative: bool,
-}
-
-impl Clearances {
-    pub(crate) fn new(scenario: &Scenario) -> Self {
-        let mut clearances = Self {
-            system: Arc::new(scenario.system().model.clone()),
-            collision: scenario.collision().clone(),
-            varying: Vec::new(),
-            is_relative: !scenario.solver().is_paper(),
-        };
-        clearances.varying = trace(|| {
-            let q = Expr::symbols("q", clearances.system.joint_count());
-            let distances = clearances.all_squared_distances(&q);
-            (0..distances.len()).filter(|&i| distances[i].as_constant().is_none()).collect()
-        });
-        clearances
-    }
-
-    fn all_squared_distances<T: Scalar>(&self, q: &[T]) -> Vec<T> {
-        let to_body = self.collision.body_links.iter();
-        let between = self.collision.link_pairs.iter();
-        to_body
-            .map(|&link| self.system.squared_distance_to_base(q, link))
-            .chain(between.map(|&(a, b)| self.system.squared_distance_between(q, a, b)))
-            .collect()
-    }
-
-    fn squared_distances<T: Scalar>(&self, q: &[T]) -> Vec<T> {
-        let all = self.all_squared_distances(q);
-        let places = self.varying.iter().enumerate();
-        places.map(|(place, &index)| all[index] * self.measure(place).0.recip()).collect()
-    }
-
-    /// How many there are.
-    pub(crate) fn len(&self) -> usize {
-        self.varying.len()
-    }
-
-    /// Between what the one at `place` is.
-    pub(crate) fn between(&self, place: usize) -> Between {
-        let (index, body_links) = (self.varying[place], &self.collision.body_links);
-        match body_links.get(index) {
-            Some(&link) => Between::LinkAndBody(link),
-            None => {
-                let (a, b) = self.collision.link_pairs[index - body_links.len()];
-                Between::Links(a, b)
-            }
-        }
-    }
-
-    /// The least that is allowed of the one at `place`.
-    pub(crate) fn least_m(&self, place: usize) -> f64 {
-        match self.between(place) {
-            Between::LinkAndBody(_) => self.collision.body_distance_m,
-            Between::Links(..) => self.collision.clearance_m,
-        }
-    }
-
-    /// How far links keep from each other.
-    pub(crate) fn clearance_m(&self) -> f64 {
-        self.collision.clearance_m
-    }
-
-    /// What the squared distance at `place` is measured by, and how much more is asked of it.
-    fn measure(&self, place: usize) -> (f64, f64) {
-        let size = self.system.size_m();
-        let least = self.least_m(place);
-        match self.is_relative && least > 0.0 && least < SMALL * size {
-            true => (size * size.min(RELATIVE_TO * least), RELAXED),
-            false => (1.0, 0.0),
-        }
-    }
-
-    /// The one at `place`, as it is stated.
-    fn squared_distance<T: Scalar>(&self, q: &[T], place: usize) -> T {
-        let squared = match self.between(place) {
-            Between::LinkAndBody(link) => self.system.squared_distance_to_base(q, link),
-            Between::Links(a, b) => self.system.squared_distance_between(q, a, b),
-        };
-        squared * self.measure(place).0.recip()
-    }
-
-    /// The least that the one at `place` may be, as it is stated.
-    fn least_squared(&self, place: usize) -> f64 {
-        let (measure, more) = self.measure(place);
-        self.least_m(place).powi(2) / measure + more
-    }
-
-    fn bounds(&self) -> ComponentBounds {
-        let lower: Vec<f64> = (0..self.len()).map(|place| self.least_squared(place)).collect();
-        let upper = vec![f64::INFINITY; lower.len()];
-        ComponentBounds::new(lower, upper)
     }
 }
 

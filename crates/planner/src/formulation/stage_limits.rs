@@ -79,7 +79,7 @@ impl StageLimits {
         }
         for (&clearance, &parts) in &self.clearances {
             for _ in 1..parts {
-                lower.push(clearances.least_squared(clearance));
+                lower.push(clearances.least(clearance));
                 upper.push(f64::INFINITY);
             }
         }
@@ -94,7 +94,7 @@ impl StageLimits {
         ComponentBounds::new([lower, of_loads.lower].concat(), [upper, of_loads.upper].concat())
     }
 
-    /// The middle control points of the joints' curves, then the squared distances, then the cosines of the
+    /// The middle control points of the joints' curves, then the distances, then the cosines of the
     /// angles from cones, then the loads within a step of length `h`.
     pub(super) fn values(
         &self,
@@ -120,7 +120,7 @@ impl StageLimits {
                 let joints = angles.iter().zip(rates).zip(&u);
                 let posture: Vec<Expr> =
                     joints.map(|((&q, &rate), &u)| q + s * (rate + s * 0.5 * u)).collect();
-                values.push(clearances.squared_distance(&posture, clearance));
+                values.push(clearances.distance(&posture, clearance));
             }
         }
         for (&cone, &parts) in &self.cones {

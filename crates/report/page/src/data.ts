@@ -50,7 +50,12 @@ export interface Spacecraft {
   /** Edges of the box drawn for the base, m, and its attitude in the body frame. */
   box_m: [number, number, number];
   box_attitude: [number, number, number, number];
-  keep_out_radius_m: number;
+  /** Of the sphere that the arm keeps out of, if there is one. */
+  keep_out_radius_m: number | null;
+  /** Shapes that the arm keeps out of, body axes. */
+  keep_out: KeepOut[];
+  /** Radii of the arm's capsules, in the order of their column. */
+  capsule_radii_m: number[];
   clearance_m: number;
   /** The point of the arm that lies on each joint's axis. */
   joint_points: number[];
@@ -61,6 +66,13 @@ export interface Spacecraft {
   /** Conserved, about the center of mass; inertial axes. */
   momentum_n_m_s: [number, number, number];
 }
+
+/** A sphere is a capsule whose ends are the same. */
+export type KeepOut =
+  | { capsule: { from_m: Triple; to_m: Triple; radius_m: number } }
+  | { box: { center_m: Triple; size_m: Triple } };
+
+export type Triple = [number, number, number];
 
 export interface JointLimits {
   angle_min_deg: number | null;
@@ -83,6 +95,7 @@ export type ColumnName =
   | "attitude_error_rad"
   | "arm_points_m"
   | "joint_axes"
+  | "capsules_m"
   | "arm_momentum_n_m_s"
   | "body_clearance_m"
   | "link_clearance_m";

@@ -52,8 +52,9 @@ export function rings(radius: number, stroke: Stroke): Group {
   return group;
 }
 
-/** The sphere that links keep out of. */
+/** The sphere that links keep out of; nothing if its radius is zero. */
 export function keepOut(radius: number): Group {
+  if (radius === 0) return new Group();
   const material = new MeshBasicMaterial({ transparent: true, opacity: 0.07, depthWrite: false });
   painted(() => material.color.set(color("keep-out")));
   const group = new Group();

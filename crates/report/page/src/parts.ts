@@ -1,6 +1,6 @@
 import {
-  CanvasTexture, Color, CylinderGeometry, Mesh, MeshStandardMaterial, Quaternion, SRGBColorSpace,
-  Sprite, SpriteMaterial, Vector3,
+  BoxGeometry, CanvasTexture, Color, CylinderGeometry, EdgesGeometry, Group, Mesh, MeshStandardMaterial,
+  Quaternion, SphereGeometry, SRGBColorSpace, Sprite, SpriteMaterial, Vector3, type BufferGeometry, type Material,
 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
@@ -52,7 +52,7 @@ const UP = new Vector3(0, 1, 0);
 export class Strut {
   readonly mesh: Mesh;
 
-  constructor(radius: number, material: MeshStandardMaterial) {
+  constructor(radius: number, material: Material) {
     this.mesh = new Mesh(new CylinderGeometry(radius, radius, 1, 24), material);
   }
 
@@ -65,6 +65,33 @@ export class Strut {
     this.mesh.scale.set(1, length, 1);
     this.mesh.quaternion.copy(new Quaternion().setFromUnitVectors(UP, along.divideScalar(length)));
   }
+}
+
+/** A capsule that is put between two points again and again; a sphere where they are the same. */
+export class Capsule {
+  readonly group = new Group();
+  private readonly strut: Strut;
+  private readonly ends: Mesh[];
+
+  constructor(radius: number, material: Material) {
+    this.strut = new Strut(radius, material);
+    this.ends = [0, 1].map(() => new Mesh(new SphereGeometry(radius, 24, 16), material));
+    this.group.add(this.strut.mesh, ...this.ends);
+  }
+
+  between(start: Vector3, end: Vector3): void {
+    this.strut.between(start, end);
+    [start, end].forEach((place, i) => this.ends[i].position.copy(place));
+  }
+}
+
+/** The edges of a box about the origin. */
+export function boxEdges(size: [number, number, number], stroke: Stroke): LineSegments2 {
+  const edges: BufferGeometry = new EdgesGeometry(new BoxGeometry(...size));
+  const position = edges.getAttribute("position");
+  const points = Array.from({ length: position.count }, (_, i) =>
+    new Vector3().fromBufferAttribute(position, i));
+  return segments(points, stroke);
 }
 
 type Write = (text: string, height: number, x: number, y: number) => void;

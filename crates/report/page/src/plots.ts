@@ -203,7 +203,8 @@ function panels(data: ReportData, motion: Motion): Panel[] {
   const spin = motion.time.map((_, k) => Math.hypot(...rates.map(({ values }) => values[k])));
   const clearances: Curve[] = [];
   if (motion.width("body_clearance_m")) {
-    clearances.push(one("keep-out sphere", motion.component("body_clearance_m"), "joint-0"));
+    const what = data.spacecraft.keep_out.length > 0 ? "from the base" : "keep-out sphere";
+    clearances.push(one(what, motion.component("body_clearance_m"), "joint-0"));
   }
   if (motion.width("link_clearance_m")) {
     clearances.push(one("between links", motion.component("link_clearance_m"), "joint-1"));

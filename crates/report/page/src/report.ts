@@ -60,6 +60,7 @@ function connectStage(stage: Stage): void {
     byId<HTMLInputElement>("show-boresight").checked = true;
     stage.setBoresight(Number(boresight.value));
   });
+  byId("keep-out").hidden = data.spacecraft.keep_out_radius_m === null;
   byId("target").hidden = data.target_attitude === null;
   byId("cones").hidden = data.cones.length === 0;
   byId("total-row").hidden = Math.hypot(...data.spacecraft.momentum_n_m_s) === 0;

@@ -1,9 +1,7 @@
-import {
-  BoxGeometry, EdgesGeometry, Group, Mesh, SphereGeometry, Vector3, type BufferGeometry,
-} from "three";
-import type { Spacecraft } from "./data";
+import { BoxGeometry, Group, Mesh, SphereGeometry, Vector3 } from "three";
+import type { KeepOut, Spacecraft } from "./data";
 import { fromScalarFirst } from "./motion";
-import { polyline, segments, Strut, surface, type Stroke } from "./parts";
+import { boxEdges, Capsule, polyline, Strut, surface, type Stroke } from "./parts";
 import { color, jointColor } from "./theme";
 
 /** The base and its arm, in body axes. */
@@ -11,13 +9,14 @@ export class SpacecraftModel {
   readonly group = new Group();
   private readonly links: Strut[] = [];
   private readonly joints: Strut[] = [];
+  private readonly capsules: Capsule[];
   private readonly tip: Mesh;
   private points: Vector3[] = [];
 
   constructor(private readonly spacecraft: Spacecraft, reach: number) {
     const smallest = Math.min(...spacecraft.box_m);
     this.thickness = Math.min(0.02 * reach, 0.16 * smallest);
-    this.group.add(box(spacecraft), boxEdges(spacecraft, { color: "edge", width: 1.5 }));
+    this.group.add(base(spacecraft), outline(spacecraft, { color: "edge", width: 1.5 }));
     const count = spacecraft.joint_points.length;
     for (let i = 0; i < count; i++) {
       const link = new Strut(this.thickness, surface(() => color("link")));
@@ -28,13 +27,15 @@ export class SpacecraftModel {
     }
     const size = spacecraft.has_payload ? 4 : 1.6;
     this.tip = new Mesh(new SphereGeometry(size * this.thickness, 32, 16), surface(() => color("tip")));
-    this.group.add(this.tip);
+    const skin = surface(() => color("link"), 0.45);
+    this.capsules = spacecraft.capsule_radii_m.map((radius) => new Capsule(radius, skin));
+    this.group.add(this.tip, ...this.capsules.map((capsule) => capsule.group));
   }
 
   private readonly thickness: number;
 
-  /** Puts the arm where its points and joint axes are, body axes. */
-  pose(points: Vector3[], axes: Vector3[]): void {
+  /** Puts the arm where its points, its joint axes and the ends of its capsules are, body axes. */
+  pose(points: Vector3[], axes: Vector3[], capsules: Vector3[]): void {
     this.points = points;
     this.links.forEach((link, i) => link.between(points[i], points[i + 1]));
     this.joints.forEach((joint, i) => {
@@ -43,6 +44,7 @@ export class SpacecraftModel {
       joint.between(center.clone().sub(half), center.clone().add(half));
     });
     this.tip.position.copy(points[points.length - 1]);
+    this.capsules.forEach((capsule, i) => capsule.between(capsules[2 * i], capsules[2 * i + 1]));
   }
 
   /** The arm's points where they are drawn, in the axes of the whole scene's `space`. */
@@ -52,25 +54,67 @@ export class SpacecraftModel {
   }
 }
 
-/** The base's box and its arm as lines: where they start, or shall arrive. */
+/** The base and its arm as lines: where they start, or shall arrive. */
 export function ghost(spacecraft: Spacecraft, arm: Vector3[], stroke: Stroke): Group {
   const group = new Group();
-  group.add(boxEdges(spacecraft, stroke), polyline(arm, { ...stroke, width: 2 * stroke.width }));
+  group.add(outline(spacecraft, stroke), polyline(arm, { ...stroke, width: 2 * stroke.width }));
   return group;
 }
 
-function box(spacecraft: Spacecraft): Mesh {
-  const mesh = new Mesh(new BoxGeometry(...spacecraft.box_m), surface(() => color("base")));
-  mesh.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
-  return mesh;
+/** The shapes that the arm keeps out of; without any, the uniform box with the base's inertia. */
+function base(spacecraft: Spacecraft): Group {
+  const group = new Group();
+  const skin = surface(() => color("base"));
+  for (const shape of spacecraft.keep_out) group.add(solid(shape, skin));
+  if (spacecraft.keep_out.length === 0) {
+    const mesh = new Mesh(new BoxGeometry(...spacecraft.box_m), skin);
+    mesh.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
+    group.add(mesh);
+  }
+  return group;
 }
 
-function boxEdges(spacecraft: Spacecraft, stroke: Stroke) {
-  const edges: BufferGeometry = new EdgesGeometry(new BoxGeometry(...spacecraft.box_m));
-  const position = edges.getAttribute("position");
-  const points = Array.from({ length: position.count }, (_, i) =>
-    new Vector3().fromBufferAttribute(position, i));
-  const lines = segments(points, stroke);
-  lines.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
-  return lines;
+function solid(shape: KeepOut, skin: ReturnType<typeof surface>): Group {
+  if ("capsule" in shape) {
+    const { from_m, to_m, radius_m } = shape.capsule;
+    const capsule = new Capsule(radius_m, skin);
+    capsule.between(new Vector3(...from_m), new Vector3(...to_m));
+    return capsule.group;
+  }
+  const group = new Group();
+  group.add(new Mesh(new BoxGeometry(...shape.box.size_m), skin));
+  group.position.fromArray(shape.box.center_m);
+  return group;
+}
+
+/** The edges of the same. */
+function outline(spacecraft: Spacecraft, stroke: Stroke): Group {
+  const group = new Group();
+  for (const shape of spacecraft.keep_out) {
+    if (!("box" in shape)) continue;
+    const lines = boxEdges(shape.box.size_m, stroke);
+    lines.position.fromArray(shape.box.center_m);
+    group.add(lines);
+  }
+  if (spacecraft.keep_out.length === 0) {
+    const lines = boxEdges(spacecraft.box_m, stroke);
+    lines.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
+    group.add(lines);
+  }
+  return group;
+}
+
+/** How far the base reaches from its center of mass, m. */
+export function extent(spacecraft: Spacecraft): number {
+  const of = (shape: KeepOut): number => {
+    if ("box" in shape) {
+      const { center_m, size_m } = shape.box;
+      return Math.hypot(...center_m.map((center, i) => Math.abs(center) + size_m[i] / 2));
+    }
+    const { from_m, to_m, radius_m } = shape.capsule;
+    return Math.max(Math.hypot(...from_m), Math.hypot(...to_m)) + radius_m;
+  };
+  const shapes = spacecraft.keep_out.map(of);
+  if (shapes.length === 0) shapes.push(Math.hypot(...spacecraft.box_m) / 2);
+  return Math.max(...shapes, spacecraft.keep_out_radius_m ?? 0);
 }

@@ -4,7 +4,7 @@ import type { ReportData } from "./data";
 import { fromScalarFirst, type Motion } from "./motion";
 import { Arrow, centerMark, graticule, keepOut, Trail, triad } from "./overlays";
 import { segments } from "./parts";
-import { ghost, SpacecraftModel } from "./spacecraft";
+import { extent, ghost, SpacecraftModel } from "./spacecraft";
 import { AXIS_COLORS } from "./theme";
 import { Viewport } from "./viewport";
 
@@ -54,7 +54,7 @@ export class Stage {
 
     const bodyTriad = triad(0.95 * side, "B", 3);
     const inertialTriad = triad(this.skyRadius, "I", 1.5);
-    const sphere = keepOut(spacecraft.keep_out_radius_m);
+    const sphere = keepOut(spacecraft.keep_out_radius_m ?? 0);
     const lines = graticule(this.skyRadius);
     const center = centerMark(0.06 * this.reach);
     center.position.fromArray(spacecraft.center_of_mass_m);
@@ -100,7 +100,8 @@ export class Stage {
     body.position.copy(motion.vector("position_m", time));
     body.quaternion.copy(motion.attitude(time));
     this.sky.position.copy(body.position);
-    this.spacecraft.pose(motion.vectors("arm_points_m", time), motion.vectors("joint_axes", time));
+    this.spacecraft.pose(
+      motion.vectors("arm_points_m", time), motion.vectors("joint_axes", time), motion.vectors("capsules_m", time));
     const momenta = this.momenta(time);
     for (const name of ARROWS) {
       this.arrows[name].point(momenta[name].multiplyScalar(this.momentumScale));
@@ -217,8 +218,7 @@ export class Stage {
 
 /** Farthest that anything gets from the base's center of mass, m. */
 function farthest(data: ReportData, motion: Motion): number {
-  const { box_m, keep_out_radius_m } = data.spacecraft;
-  let far = Math.max(Math.hypot(...box_m) / 2, keep_out_radius_m);
+  let far = extent(data.spacecraft);
   for (let k = 0; k < motion.nodes; k++) {
     for (const point of motion.vectorsAt("arm_points_m", k)) far = Math.max(far, point.length());
   }

@@ -4,6 +4,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use righting_multibody::Kinematics;
 use righting_results::{Node, Trajectory};
+use righting_scenario::bodies::Solid;
+use righting_scenario::collision::Clearance;
 use righting_scenario::{CollisionModel, Maneuver, Scenario};
 use serde::Serialize;
 
@@ -19,7 +21,8 @@ pub(super) type Column = String;
 /// Names, units and frames are those of `trajectory.csv`; what it does not have:
 /// `attitude_error_rad` is the angle to a slew's target, `arm_points_m` are the origins of frames
 /// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and
-/// clearances are the least of any link from the keep-out sphere and of any two links.
+/// clearances are the least of any link from what the base keeps out and of any two links. `capsules_m` are
+/// the two ends of the segment inside each capsule of the arm that is drawn as one, in body axes.
 #[derive(Debug, Serialize)]
 pub(super) struct Columns {
     time_s: Column,
@@ -34,6 +37,7 @@ pub(super) struct Columns {
     attitude_error_rad: Column,
     arm_points_m: Column,
     joint_axes: Column,
+    capsules_m: Column,
     arm_momentum_n_m_s: Column,
     body_clearance_m: Column,
     link_clearance_m: Column,
@@ -95,6 +99,9 @@ impl Columns {
             attitude_error_rad: encoded(errors),
             arm_points_m: encoded(points.flat_map(|point| [point.x, point.y, point.z])),
             joint_axes: encoded(axes.flat_map(|axis| [axis.x, axis.y, axis.z])),
+            capsules_m: encoded(
+                postures.iter().flat_map(|posture| capsule_ends(scenario, posture)),
+            ),
             arm_momentum_n_m_s: encoded(nodes.iter().flat_map(momentum)),
             body_clearance_m,
             link_clearance_m,
@@ -102,17 +109,31 @@ impl Columns {
     }
 }
 
-/// The least clearance from the keep-out sphere and between links; empty where nothing can collide.
+/// The solids of the arm that are drawn as capsules: those that are no thin links.
+pub(super) fn capsules(scenario: &Scenario) -> impl Iterator<Item = &Solid> {
+    let is_thin = |solid: &Solid| solid.piece.shape.is_none() && solid.radius_m == 0.0;
+    scenario.system().solids.iter().filter(move |solid| !is_thin(solid))
+}
+
+fn capsule_ends(scenario: &Scenario, posture: &Kinematics<f64>) -> Vec<f64> {
+    let ends = |solid: &Solid| {
+        let core = posture.core(&solid.core);
+        [core.start, core.end()]
+    };
+    capsules(scenario).flat_map(ends).flat_map(|end| [end.x, end.y, end.z]).collect()
+}
+
+/// The least clearance from what the base keeps out and between links; empty where nothing can collide.
 fn clearances(scenario: &Scenario, postures: &[Kinematics<f64>]) -> [Column; 2] {
     let collision: &CollisionModel = scenario.collision();
-    let radius = scenario.system().keep_out_radius_m;
-    let bodies = collision.body_links.len();
     let (mut body, mut links) = (Vec::new(), Vec::new());
     for posture in postures {
-        let distances: Vec<f64> = collision.clearances(posture).map(|c| c.distance_m).collect();
-        let (to_body, between) = distances.split_at(bodies);
-        body.extend(to_body.iter().copied().reduce(f64::min).map(|distance| distance - radius));
-        links.extend(between.iter().copied().reduce(f64::min));
+        let (from_base, between): (Vec<Clearance>, Vec<Clearance>) =
+            collision.clearances(posture).partition(|c| c.between.off_base().is_some());
+        // From the keep-out sphere's surface: what is asked beyond the clearance is its radius.
+        let to_surface = |c: &Clearance| c.distance_m - (c.least_m - collision.clearance_m);
+        body.extend(from_base.iter().map(to_surface).reduce(f64::min));
+        links.extend(between.iter().map(|c| c.distance_m).reduce(f64::min));
     }
     [encoded(body), encoded(links)]
 }

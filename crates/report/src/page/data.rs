@@ -3,10 +3,10 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use righting_multibody::DhConvention;
 use righting_results::{Solution, Trajectory, UsedOptimizer};
-use righting_scenario::{Maneuver, Scenario, SystemDescription};
+use righting_scenario::{Maneuver, Scenario, SystemDescription, bodies};
 use serde::Serialize;
 
-use super::columns::{Columns, shown, stride};
+use super::columns::{Columns, capsules, shown, stride};
 use super::cones::{Cone, cones};
 use crate::asked;
 use crate::facts::{Fact, UsedLimit, facts, used_limits};
@@ -47,7 +47,11 @@ struct Spacecraft {
     box_m: [f64; 3],
     /// Its attitude in the body frame, scalar first.
     box_attitude: [f64; 4],
-    keep_out_radius_m: f64,
+    keep_out_radius_m: Option<f64>,
+    /// Shapes that the arm keeps out of, in body axes.
+    keep_out: Vec<KeepOut>,
+    /// Radii of the arm's capsules, in the order of their column.
+    capsule_radii_m: Vec<f64>,
     clearance_m: f64,
     /// Which of the arm's points lies on each joint's axis.
     joint_points: Vec<usize>,
@@ -57,6 +61,14 @@ struct Spacecraft {
     center_of_mass_m: [f64; 3],
     /// Conserved, about the center of mass; inertial axes.
     momentum_n_m_s: [f64; 3],
+}
+
+/// As in a system file, a sphere as a capsule whose ends are the same.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum KeepOut {
+    Capsule { from_m: [f64; 3], to_m: [f64; 3], radius_m: f64 },
+    Box { center_m: [f64; 3], size_m: [f64; 3] },
 }
 
 #[derive(Debug, Serialize)]
@@ -118,6 +130,8 @@ impl Spacecraft {
             box_m,
             box_attitude,
             keep_out_radius_m: system.keep_out_radius_m,
+            keep_out: system.keep_out.iter().map(KeepOut::of).collect(),
+            capsule_radii_m: capsules(scenario).map(|solid| solid.radius_m).collect(),
             clearance_m: scenario.collision().clearance_m,
             joint_points: match model.convention() {
                 DhConvention::Standard => joints.collect(),
@@ -127,6 +141,21 @@ impl Spacecraft {
             joint_limits: system.joint_limits.iter().map(JointLimits::of).collect(),
             center_of_mass_m: model.inertial_center_of_mass(&start).into(),
             momentum_n_m_s: model.inertial_angular_momentum(&start).into(),
+        }
+    }
+}
+
+impl KeepOut {
+    fn of(shape: &bodies::KeepOut) -> Self {
+        match shape {
+            bodies::KeepOut::Capsule { ends_m: [from_m, to_m], radius_m } => Self::Capsule {
+                from_m: (*from_m).into(),
+                to_m: (*to_m).into(),
+                radius_m: *radius_m,
+            },
+            bodies::KeepOut::Cuboid(cuboid) => {
+                Self::Box { center_m: cuboid.center_m.into(), size_m: (2.0 * cuboid.half_m).into() }
+            }
         }
     }
 }
