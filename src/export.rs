@@ -7,7 +7,9 @@ use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::Offset;
-use righting_report::{AemOptions, aem, npz};
+use righting_export::{AemOptions, aem, npz};
+use righting_report::maneuver_phrase;
+use righting_results::Solution;
 use righting_verifier::Verified;
 
 use crate::failure::Failure;
@@ -77,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Npz => (NPZ_FILE, npz(&trajectory)?),
         Format::Aem => {
             let message = arguments.message.clone().unwrap_or_default();
-            let options = message.options(&scenario.system().name);
+            let options = message.options(&solution, &scenario.system().name);
             (AEM_FILE, aem(&solution, &trajectory, &options)?.into_bytes())
         }
     };
@@ -90,10 +92,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Message {
-    fn options(self, system: &str) -> AemOptions {
+    fn options(self, solution: &Solution, system: &str) -> AemOptions {
         let now = Timestamp::try_from(SystemTime::now()).unwrap_or_default();
         let or = |given: Option<String>, default: &str| given.unwrap_or_else(|| default.to_owned());
         AemOptions {
+            maneuver: maneuver_phrase(&solution.scenario),
             epoch: self.epoch.unwrap_or(DateTime::constant(2000, 1, 1, 12, 0, 0, 0)),
             creation_date: Offset::UTC.to_datetime(now),
             originator: or(self.originator, "RIGHTING"),

@@ -6,7 +6,7 @@ use righting_results::{ControlInterval, Node, Trajectory};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, result::ZipError};
 
-use crate::ReportError;
+use crate::ExportError;
 
 /// The trajectory as an `.npz` archive of uncompressed arrays of doubles, in C order:
 ///
@@ -20,8 +20,8 @@ use crate::ReportError;
 /// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and, at the first node, torques of an interval |
 ///
 /// # Errors
-/// [`ReportError::Archive`] for more data than an archive without its 64-bit extension holds.
-pub fn npz(trajectory: &Trajectory) -> Result<Vec<u8>, ReportError> {
+/// [`ExportError::Archive`] for more data than an archive without its 64-bit extension holds.
+pub fn npz(trajectory: &Trajectory) -> Result<Vec<u8>, ExportError> {
     let nodes = trajectory.nodes();
     let intervals = trajectory.intervals();
     let joints = trajectory.joints();
