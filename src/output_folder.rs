@@ -58,10 +58,14 @@ pub const POWER_FIGURE_FILE: &str = "power.svg";
 pub const AEM_FILE: &str = "attitude.aem";
 /// The plan as a NumPy archive.
 pub const NPZ_FILE: &str = "trajectory.npz";
+/// The system as URDF.
+pub const URDF_FILE: &str = "system.urdf";
+/// The system as MJCF.
+pub const MJCF_FILE: &str = "system.xml";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 13] = [
+const ALL: [&str; 15] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -75,6 +79,8 @@ const ALL: [&str; 13] = [
     POWER_FIGURE_FILE,
     AEM_FILE,
     NPZ_FILE,
+    URDF_FILE,
+    MJCF_FILE,
 ];
 
 /// Names of everything that belongs to a plan.

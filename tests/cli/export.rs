@@ -217,3 +217,52 @@ fn what_cannot_be_exported_is_refused() {
     assert_eq!(run(&[]).code, 4);
     assert!(!files_in(&folder.path().join("out")).contains(&"attitude.aem".to_owned()));
 }
+
+/// A plan with every export of its own format beside it.
+fn exported_as(formats: &[&str]) -> tempfile::TempDir {
+    let folder = folder_with(&small_slew());
+    assert_eq!(solve(folder.path()).code, 0);
+    for format in formats {
+        let run = righting(folder.path(), &["export", "out", "--format", format]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{format}");
+        for file in run.stdout.lines() {
+            assert!(folder.path().join(file).is_file(), "{format}: {file}");
+        }
+    }
+    folder
+}
+
+#[test]
+fn every_format_has_files_of_its_own_and_the_next_plan_removes_them() {
+    let formats = ["urdf", "mjcf", "aem", "npz"];
+    let files = ["attitude.aem", "system.urdf", "system.xml", "trajectory.npz"];
+    let folder = exported_as(&formats);
+    let out = folder.path().join("out");
+    for file in files {
+        assert!(files_in(&out).contains(&file.to_owned()), "{file}");
+    }
+    // What belongs to an earlier plan is not taken for the next one's.
+    let mut impossible = small_slew();
+    impossible["horizon"]["duration_s"] = serde_json::json!(0.01);
+    std::fs::write(folder.path().join("scenario.json"), impossible.to_string()).expect("writable");
+    assert_eq!(solve(folder.path()).code, 3);
+    for file in files {
+        assert!(!files_in(&out).contains(&file.to_owned()), "{file}");
+    }
+}
+
+#[test]
+fn every_format_refuses_a_plan_that_does_not_hold() {
+    let folder = folder_with(&small_slew());
+    assert_eq!(solve(folder.path()).code, 0);
+    let table = folder.path().join("out/trajectory.csv");
+    let text = std::fs::read_to_string(&table).expect("readable");
+    let changed = text.replacen("0.0000000000000000e0,", "1.0000000000000000e-2,", 2);
+    std::fs::write(&table, changed).expect("writable");
+    let before = files_in(&folder.path().join("out"));
+    for format in ["urdf", "mjcf"] {
+        let run = righting(folder.path(), &["export", "out", "--format", format]);
+        assert_eq!(run.code, 4, "{format}");
+    }
+    assert_eq!(files_in(&folder.path().join("out")), before);
+}

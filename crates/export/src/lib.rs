@@ -1,4 +1,4 @@
-//! Plans in the formats of other programs.
+//! Plans and systems in the formats of other programs.
 //!
 //! Every function takes what a plan's folder holds and returns the text or the bytes of one file;
 //! nothing here writes any.
@@ -14,9 +14,15 @@
 #![forbid(unsafe_code)]
 
 mod aem;
+mod arm;
 mod error;
+mod mjcf;
 mod npz;
+mod urdf;
+mod xml;
 
 pub use aem::{AemOptions, aem};
 pub use error::ExportError;
+pub use mjcf::mjcf;
 pub use npz::npz;
+pub use urdf::urdf;

@@ -79,6 +79,7 @@
 
 mod algebra;
 mod attitude;
+mod bodies;
 mod chain;
 mod clearance;
 mod composite;
@@ -101,6 +102,7 @@ mod turn;
 mod units;
 
 pub use attitude::Quaternion;
+pub use bodies::{HingedBody, Placement, RigidBody};
 pub use distance::Segment;
 pub use dynamics::BaseAcceleration;
 pub use error::{ModelError, Part};
