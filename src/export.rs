@@ -6,7 +6,7 @@ mod message;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_export::{aem, mjcf, npz, urdf};
+use righting_export::{JointTrajectory, aem, mjcf, npz, urdf};
 use righting_report::maneuver_phrase;
 use righting_verifier::Verified;
 
@@ -72,6 +72,11 @@ fn exported(
         Format::Npz => npz(trajectory)?,
         Format::Urdf => urdf(system).into_bytes(),
         Format::Mjcf => mjcf(system, trajectory).into_bytes(),
+        Format::JointTrajectory => {
+            let motion = JointTrajectory::new(system, trajectory)?;
+            let is_json = file.extension().is_some_and(|extension| extension == "json");
+            if is_json { motion.to_json() } else { motion.to_yaml() }.into_bytes()
+        }
     };
     Ok(vec![(file.to_owned(), contents)])
 }

@@ -62,10 +62,12 @@ pub const NPZ_FILE: &str = "trajectory.npz";
 pub const URDF_FILE: &str = "system.urdf";
 /// The system as MJCF.
 pub const MJCF_FILE: &str = "system.xml";
+/// The joints' motion as a message of ROS 2.
+pub const JOINT_TRAJECTORY_FILE: &str = "joint_trajectory.yaml";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 15] = [
+const ALL: [&str; 16] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -81,6 +83,7 @@ const ALL: [&str; 15] = [
     NPZ_FILE,
     URDF_FILE,
     MJCF_FILE,
+    JOINT_TRAJECTORY_FILE,
 ];
 
 /// Names of everything that belongs to a plan.

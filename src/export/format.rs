@@ -12,6 +12,9 @@ pub enum Format {
     /// The system as MJCF for MuJoCo, the base on a free joint, the plan's ends as key frames:
     /// system.xml.
     Mjcf,
+    /// The joints' motion as ROS 2's trajectory_msgs/JointTrajectory: joint_trajectory.yaml, or JSON
+    /// where FILE ends in .json.
+    JointTrajectory,
     /// CCSDS Attitude Ephemeris Message, version 2.0, keyword = value: attitude.aem.
     Aem,
     /// NumPy archive, one array a group of columns: trajectory.npz.
@@ -24,6 +27,7 @@ impl Format {
         match self {
             Self::Urdf => files::URDF_FILE,
             Self::Mjcf => files::MJCF_FILE,
+            Self::JointTrajectory => files::JOINT_TRAJECTORY_FILE,
             Self::Aem => files::AEM_FILE,
             Self::Npz => files::NPZ_FILE,
         }

@@ -234,8 +234,9 @@ fn exported_as(formats: &[&str]) -> tempfile::TempDir {
 
 #[test]
 fn every_format_has_files_of_its_own_and_the_next_plan_removes_them() {
-    let formats = ["urdf", "mjcf", "aem", "npz"];
-    let files = ["attitude.aem", "system.urdf", "system.xml", "trajectory.npz"];
+    let formats = ["urdf", "mjcf", "joint-trajectory", "aem", "npz"];
+    let files =
+        ["attitude.aem", "joint_trajectory.yaml", "system.urdf", "system.xml", "trajectory.npz"];
     let folder = exported_as(&formats);
     let out = folder.path().join("out");
     for file in files {
@@ -252,6 +253,36 @@ fn every_format_has_files_of_its_own_and_the_next_plan_removes_them() {
 }
 
 #[test]
+fn a_joint_trajectory_is_yaml_or_json_of_the_same_numbers() {
+    let folder = exported_as(&["joint-trajectory"]);
+    let run = righting(
+        folder.path(),
+        &["export", "out", "--format", "joint-trajectory", "--out", "elsewhere/m.json"],
+    );
+    assert_eq!((run.code, run.stdout.as_str()), (0, "elsewhere/m.json\n"));
+    let text = std::fs::read_to_string(folder.path().join("elsewhere/m.json")).expect("written");
+    let message: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(message["joint_names"], serde_json::json!(["joint_1", "joint_2"]));
+    let points = message["points"].as_array().expect("points");
+    assert_eq!(points.len(), 41);
+    let half = serde_json::json!({ "sec": 19, "nanosec": 500_000_000 });
+    assert_eq!(points[39]["time_from_start"], half);
+    let yaml = std::fs::read_to_string(folder.path().join("out/joint_trajectory.yaml"));
+    let yaml = yaml.expect("written");
+    let lines: Vec<&str> = yaml.lines().collect();
+    assert!(lines.contains(&"joint_names: [joint_1, joint_2]"));
+    assert!(lines.contains(&"    time_from_start: {sec: 19, nanosec: 500000000}"));
+    for key in ["positions", "velocities", "accelerations", "effort"] {
+        let rows = lines.iter().filter_map(|line| line.split_once(&format!("{key}: ")));
+        let rows: Vec<serde_json::Value> = rows
+            .map(|(_, row)| serde_json::from_str(&row.replace("e+", "e")).expect("numbers"))
+            .collect();
+        let of_json: Vec<_> = points.iter().map(|point| point[key].clone()).collect();
+        assert_eq!(rows, of_json, "{key}");
+    }
+}
+
+#[test]
 fn every_format_refuses_a_plan_that_does_not_hold() {
     let folder = folder_with(&small_slew());
     assert_eq!(solve(folder.path()).code, 0);
@@ -260,7 +291,7 @@ fn every_format_refuses_a_plan_that_does_not_hold() {
     let changed = text.replacen("0.0000000000000000e0,", "1.0000000000000000e-2,", 2);
     std::fs::write(&table, changed).expect("writable");
     let before = files_in(&folder.path().join("out"));
-    for format in ["urdf", "mjcf"] {
+    for format in ["urdf", "mjcf", "joint-trajectory"] {
         let run = righting(folder.path(), &["export", "out", "--format", format]);
         assert_eq!(run.code, 4, "{format}");
     }

@@ -27,6 +27,12 @@ pub enum ExportError {
         /// Its first time.
         epoch: String,
     },
+    /// The nodes are too near each other in time for the format's clock.
+    #[error("time from the start: {}", Mismatch::new(format_args!("a step of {step_s} s"), "at least 1e-9 s"))]
+    Steps {
+        /// The step of the trajectory, s.
+        step_s: f64,
+    },
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -16,6 +16,7 @@
 mod aem;
 mod arm;
 mod error;
+mod joint_trajectory;
 mod mjcf;
 mod npz;
 mod urdf;
@@ -23,6 +24,7 @@ mod xml;
 
 pub use aem::{AemOptions, aem};
 pub use error::ExportError;
+pub use joint_trajectory::JointTrajectory;
 pub use mjcf::mjcf;
 pub use npz::npz;
 pub use urdf::urdf;
