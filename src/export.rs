@@ -6,7 +6,7 @@ mod message;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_export::{JointTrajectory, aem, mjcf, npz, urdf};
+use righting_export::{JointTrajectory, SpiceKernels, aem, ck, mat, mjcf, npz, stk, urdf};
 use righting_report::maneuver_phrase;
 use righting_verifier::Verified;
 
@@ -69,7 +69,13 @@ fn exported(
             let options = message.of_aem(maneuver, &system.name);
             aem(solution, trajectory, &options)?.into_bytes()
         }
+        Format::Stk => stk(solution, trajectory, &message.of_stk(maneuver))?.into_bytes(),
+        Format::Ck => {
+            let options = message.of_ck(maneuver, &system.name);
+            return spice_files(file, ck(solution, trajectory, &options)?);
+        }
         Format::Npz => npz(trajectory)?,
+        Format::Mat => mat(trajectory),
         Format::Urdf => urdf(system).into_bytes(),
         Format::Mjcf => mjcf(system, trajectory).into_bytes(),
         Format::JointTrajectory => {
@@ -79,4 +85,21 @@ fn exported(
         }
     };
     Ok(vec![(file.to_owned(), contents)])
+}
+
+/// The C-kernel, and its clock and frame beside it.
+fn spice_files(file: &Path, kernels: SpiceKernels) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+    let SpiceKernels { ck, clock, frame } = kernels;
+    let [clock_file, frame_file] = ["tsc", "tf"].map(|extension| file.with_extension(extension));
+    if file == clock_file || file == frame_file {
+        return Err(Failure::Usage(
+            "--out ends in .tsc or .tf, the names of the kernels beside the C-kernel: give it \
+             another ending, such as .bc",
+        ));
+    }
+    Ok(vec![
+        (file.to_owned(), ck),
+        (clock_file, clock.into_bytes()),
+        (frame_file, frame.into_bytes()),
+    ])
 }

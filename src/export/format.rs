@@ -15,10 +15,16 @@ pub enum Format {
     /// The joints' motion as ROS 2's trajectory_msgs/JointTrajectory: joint_trajectory.yaml, or JSON
     /// where FILE ends in .json.
     JointTrajectory,
+    /// SPICE kernels of attitude, clock and frame: attitude.bc, .tsc and .tf.
+    Ck,
+    /// STK attitude file: attitude.a.
+    Stk,
     /// CCSDS Attitude Ephemeris Message, version 2.0, keyword = value: attitude.aem.
     Aem,
     /// NumPy archive, one array a group of columns: trajectory.npz.
     Npz,
+    /// MATLAB file of level 5, one matrix a group of columns: trajectory.mat.
+    Mat,
 }
 
 impl Format {
@@ -28,8 +34,11 @@ impl Format {
             Self::Urdf => files::URDF_FILE,
             Self::Mjcf => files::MJCF_FILE,
             Self::JointTrajectory => files::JOINT_TRAJECTORY_FILE,
+            Self::Ck => files::CK_FILE,
+            Self::Stk => files::STK_FILE,
             Self::Aem => files::AEM_FILE,
             Self::Npz => files::NPZ_FILE,
+            Self::Mat => files::MAT_FILE,
         }
     }
 }

@@ -8,11 +8,10 @@ use std::fmt::Write;
 
 use jiff::SignedDuration;
 use jiff::civil::DateTime;
-use nalgebra::{Quaternion, UnitQuaternion};
 use righting_results::{Node, Solution, Trajectory};
-use righting_scenario::error::Mismatch;
 
 use crate::ExportError;
+use crate::attitude::{numbers, plain, value};
 
 /// What a message says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +34,6 @@ pub struct AemOptions {
     pub time_system: String,
 }
 
-/// The longest value that keeps a line within 254 characters.
-const LONGEST_VALUE: usize = 200;
 /// Name of the body frame.
 const BODY_FRAME: &str = "SC_BODY_1";
 const NANOSECONDS: f64 = 1e9;
@@ -87,23 +84,6 @@ pub fn aem(
     Ok(text)
 }
 
-/// Q1 Q2 Q3 QC and the angular rate in deg/s, 16 digits each, as many as the format takes.
-fn numbers(node: &Node) -> String {
-    let [x, y, z, w] = {
-        let [w, x, y, z] = node.attitude;
-        let unit = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
-        [unit.i, unit.j, unit.k, unit.w]
-    };
-    let rates = node.angular_rate_rad_s.map(f64::to_degrees);
-    let mut text = String::new();
-    for number in [x, y, z, w].into_iter().chain(rates) {
-        // The format has no negative zero.
-        let number = if number == 0.0 { 0.0 } else { number };
-        write!(text, " {number:.15e}").expect("a string takes all that is written to it");
-    }
-    text
-}
-
 /// The nodes' times, with as few of 3, 6 or 9 decimals as tell them to the nanosecond.
 fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, ExportError> {
     let steps_s = trajectory.nodes().windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
@@ -129,23 +109,4 @@ fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, Ex
         _ => 9,
     };
     Ok(times.into_iter().map(|time| format!("{time:.decimals$}")).collect())
-}
-
-/// A text value: printable ASCII on one line, upper case as the format asks for.
-fn value(keyword: &'static str, value: &str) -> Result<String, ExportError> {
-    let trimmed = value.trim();
-    let is_plain = trimmed.chars().all(|c| c == ' ' || c.is_ascii_graphic());
-    if trimmed.is_empty() || trimmed.len() > LONGEST_VALUE || !is_plain {
-        let expected = "1 to 200 printable ASCII characters";
-        let mismatch = Mismatch::new(format_args!("{value:?}"), expected);
-        return Err(ExportError::Value { keyword, mismatch });
-    }
-    Ok(trimmed.to_ascii_uppercase())
-}
-
-/// A comment of any text in printable ASCII.
-fn plain(comment: &str) -> String {
-    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg");
-    let is_plain = |&c: &char| c == ' ' || c.is_ascii_graphic();
-    spelt.chars().filter(is_plain).take(LONGEST_VALUE).collect()
 }

@@ -15,16 +15,26 @@
 
 mod aem;
 mod arm;
+mod attitude;
+mod ck;
+mod columns;
+mod daf;
 mod error;
 mod joint_trajectory;
+mod mat;
 mod mjcf;
 mod npz;
+mod stk;
+mod time_scales;
 mod urdf;
 mod xml;
 
 pub use aem::{AemOptions, aem};
+pub use ck::{CkOptions, SpiceKernels, ck};
 pub use error::ExportError;
 pub use joint_trajectory::JointTrajectory;
+pub use mat::mat;
 pub use mjcf::mjcf;
 pub use npz::npz;
+pub use stk::{StkOptions, stk};
 pub use urdf::urdf;
