@@ -6,7 +6,9 @@ mod message;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_export::{JointTrajectory, SpiceKernels, aem, ck, mat, mjcf, npz, stk, urdf};
+use righting_export::{
+    JointTrajectory, SpiceKernels, aem, basilisk, ck, mat, mjcf, mujoco, npz, stk, urdf,
+};
 use righting_report::maneuver_phrase;
 use righting_verifier::Verified;
 
@@ -83,6 +85,8 @@ fn exported(
             let is_json = file.extension().is_some_and(|extension| extension == "json");
             if is_json { motion.to_json() } else { motion.to_yaml() }.into_bytes()
         }
+        Format::Mujoco => mujoco(scenario, solution, trajectory, &maneuver)?,
+        Format::Basilisk => basilisk(scenario, solution, trajectory, &maneuver)?,
     };
     Ok(vec![(file.to_owned(), contents)])
 }

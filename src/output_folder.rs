@@ -74,10 +74,14 @@ pub const CK_FILE: &str = "attitude.bc";
 const CLOCK_FILE: &str = "attitude.tsc";
 /// The frame of the C-kernel.
 const FRAME_FILE: &str = "attitude.tf";
+/// The script that flies the plan in Basilisk.
+pub const BASILISK_FILE: &str = "fly_basilisk.py";
+/// The script that flies the plan in MuJoCo.
+pub const MUJOCO_FILE: &str = "fly_mujoco.py";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 21] = [
+const ALL: [&str; 23] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -99,6 +103,8 @@ const ALL: [&str; 21] = [
     CK_FILE,
     CLOCK_FILE,
     FRAME_FILE,
+    BASILISK_FILE,
+    MUJOCO_FILE,
 ];
 
 /// Names of everything that belongs to a plan.

@@ -25,6 +25,10 @@ pub enum Format {
     Npz,
     /// MATLAB file of level 5, one matrix a group of columns: trajectory.mat.
     Mat,
+    /// Python script that flies the plan in Basilisk by its torques alone: fly_basilisk.py.
+    Basilisk,
+    /// Python script that flies the plan in MuJoCo by its torques alone: fly_mujoco.py.
+    Mujoco,
 }
 
 impl Format {
@@ -39,6 +43,8 @@ impl Format {
             Self::Aem => files::AEM_FILE,
             Self::Npz => files::NPZ_FILE,
             Self::Mat => files::MAT_FILE,
+            Self::Basilisk => files::BASILISK_FILE,
+            Self::Mujoco => files::MUJOCO_FILE,
         }
     }
 }

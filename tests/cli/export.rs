@@ -234,13 +234,26 @@ fn exported_as(formats: &[&str]) -> tempfile::TempDir {
 
 #[test]
 fn every_format_has_files_of_its_own_and_the_next_plan_removes_them() {
-    let formats = ["urdf", "mjcf", "joint-trajectory", "ck", "stk", "aem", "npz", "mat"];
+    let formats = [
+        "urdf",
+        "mjcf",
+        "joint-trajectory",
+        "ck",
+        "stk",
+        "aem",
+        "npz",
+        "mat",
+        "basilisk",
+        "mujoco",
+    ];
     let files = [
         "attitude.a",
         "attitude.aem",
         "attitude.bc",
         "attitude.tf",
         "attitude.tsc",
+        "fly_basilisk.py",
+        "fly_mujoco.py",
         "joint_trajectory.yaml",
         "system.urdf",
         "system.xml",
@@ -409,6 +422,20 @@ fn a_c_kernel_holds_attitudes_rates_and_times() {
 }
 
 #[test]
+fn a_flight_has_the_plan_and_the_model_in_it() {
+    let folder = exported_as(&["mujoco", "basilisk"]);
+    for (name, module) in [("fly_mujoco.py", "import mujoco\n"), ("fly_basilisk.py", "Basilisk")] {
+        let text = std::fs::read_to_string(folder.path().join("out").join(name)).expect("written");
+        assert!(text.starts_with("#!/usr/bin/env python3\n") && text.contains(module), "{name}");
+        assert!(text.contains("\nMANEUVER = \"slew of 2° about [1, 0, 0] in 20 s\"\n"), "{name}");
+        assert!(text.contains("\nJOINTS = [\"joint_1\", \"joint_2\"]\n"), "{name}");
+        assert!(!text.contains("# CONSTANTS"), "{name}");
+        let (_, torques) = text.split_once("\nTORQUE_COEFFICIENTS = ").expect("torques");
+        assert!(torques.contains("(40, 7, 2, ))\n"), "{name}");
+    }
+}
+
+#[test]
 fn every_format_refuses_a_plan_that_does_not_hold() {
     let folder = folder_with(&small_slew());
     assert_eq!(solve(folder.path()).code, 0);
@@ -417,7 +444,7 @@ fn every_format_refuses_a_plan_that_does_not_hold() {
     let changed = text.replacen("0.0000000000000000e0,", "1.0000000000000000e-2,", 2);
     std::fs::write(&table, changed).expect("writable");
     let before = files_in(&folder.path().join("out"));
-    for format in ["urdf", "mjcf", "joint-trajectory", "ck", "stk", "mat"] {
+    for format in ["urdf", "mjcf", "joint-trajectory", "ck", "stk", "mat", "basilisk", "mujoco"] {
         let run = righting(folder.path(), &["export", "out", "--format", format]);
         assert_eq!(run.code, 4, "{format}");
     }

@@ -26,6 +26,8 @@ pub(crate) struct Hinge {
     pub placement: Placement,
     pub body: RigidBody,
     pub limits: JointLimits,
+    /// Whether the hinge turns no inertia.
+    pub is_idle: bool,
     /// The angle that it holds, if it does not turn.
     pub held_rad: Option<f64>,
 }
@@ -36,13 +38,14 @@ impl Arm {
         let bodies = system.model.hinged_bodies();
         let hinges = bodies.into_iter().zip(&system.joint_limits).enumerate();
         let hinge = |(index, (hinged, limits)): (usize, (_, &JointLimits))| {
-            let righting_multibody::HingedBody { placement, body, .. } = hinged;
+            let righting_multibody::HingedBody { placement, body, is_idle } = hinged;
             Hinge {
                 joint: joint_name(index),
                 link: format!("link_{}", index + 1),
                 placement,
                 body,
                 limits: *limits,
+                is_idle,
                 held_rad: limits.is_locked().then_some(limits.angle_min_rad),
             }
         };
@@ -61,6 +64,25 @@ impl Hinge {
             Some(angle_rad) => self.placement.turned_about_z(angle_rad),
             None => self.placement,
         }
+    }
+}
+
+impl Hinge {
+    /// Whether the body has no inertia about its hinge and the next hinge, which turns, has the same
+    /// axis; then 1, or −1 where the two turn in opposite senses.
+    pub fn shares_axis_with(&self, next: &Self) -> Option<f64> {
+        /// Rounding of a direction, and of a mass that lies on an axis.
+        const ROUNDING: f64 = 1e-14;
+        let Placement { position_m, rotation } = &next.placement;
+        let center = self.body.center_of_mass_m;
+        let moments = self.body.inertia_kg_m2;
+        let about_axis = self.body.mass_kg * center.xy().norm_squared() + moments[(2, 2)];
+        let about_all = self.body.mass_kg * center.norm_squared() + moments.trace();
+        let is_on_axis = about_axis <= ROUNDING * about_all
+            && position_m.xy().norm() <= ROUNDING * position_m.norm()
+            && (1.0 - rotation[(2, 2)].abs()) <= ROUNDING;
+        (is_on_axis && next.held_rad.is_none() && !next.is_idle)
+            .then_some(rotation[(2, 2)].signum())
     }
 }
 

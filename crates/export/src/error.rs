@@ -33,6 +33,12 @@ pub enum ExportError {
         /// The step of the trajectory, s.
         step_s: f64,
     },
+    /// The motion of the plan cannot be followed.
+    #[error("the motion cannot be followed beyond {time_s} s")]
+    Motion {
+        /// Where it ends.
+        time_s: f64,
+    },
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),
