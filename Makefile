@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases random bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -36,7 +36,15 @@ random: setup
 	scripts/random_maneuvers.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 	scripts/pinocchio.sh out/random
 
-# The same on Debian 13, in a root of its own: as root, with debootstrap.
+# The paper's plans flown in MuJoCo and Basilisk by their exported files alone, and every export read by the
+# program that it is for: docs/replay.md. Gets a virtual environment of its own.
+replay: setup
+	cargo build --release --locked
+	cargo build --release --locked -p righting-export --example reference
+	target="$${CARGO_TARGET_DIR:-target}/release" && \
+		scripts/replay.sh --righting "$$target/righting" --reference "$$target/examples/reference"
+
+# All tests on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:
 	scripts/test-debian13.sh
 

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use righting_analysis::Impossible;
+use righting_export::ExportError;
 use righting_ipopt::LoadError;
 use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
@@ -67,6 +68,9 @@ pub enum Failure {
     /// A figure could not be written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A plan could not be put into another format.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// A plan is written, but not everything that shows it.
     #[error("the plan in {} is whole, but not what shows it: {cause}", folder.display())]
     NotShown {
@@ -162,6 +166,7 @@ impl Failure {
             | Self::Usage(_)
             | Self::Sweep(_)
             | Self::Report(_)
+            | Self::Export(_)
             | Self::NotShown { .. }
             | Self::Stdout(_)
             | Self::NotReady { .. }

@@ -60,10 +60,30 @@ pub const POWER_FIGURE_FILE: &str = "power.svg";
 pub const AEM_FILE: &str = "attitude.aem";
 /// The plan as a NumPy archive.
 pub const NPZ_FILE: &str = "trajectory.npz";
+/// The plan as a MATLAB file.
+pub const MAT_FILE: &str = "trajectory.mat";
+/// The system as URDF.
+pub const URDF_FILE: &str = "system.urdf";
+/// The system as MJCF.
+pub const MJCF_FILE: &str = "system.xml";
+/// The joints' motion as a message of ROS 2.
+pub const JOINT_TRAJECTORY_FILE: &str = "joint_trajectory.yaml";
+/// The plan as an attitude file of STK.
+pub const STK_FILE: &str = "attitude.a";
+/// The plan as a C-kernel of SPICE.
+pub const CK_FILE: &str = "attitude.bc";
+/// The clock of the C-kernel.
+const CLOCK_FILE: &str = "attitude.tsc";
+/// The frame of the C-kernel.
+const FRAME_FILE: &str = "attitude.tf";
+/// The script that flies the plan in Basilisk.
+pub const BASILISK_FILE: &str = "fly_basilisk.py";
+/// The script that flies the plan in MuJoCo.
+pub const MUJOCO_FILE: &str = "fly_mujoco.py";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 14] = [
+const ALL: [&str; 24] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -78,6 +98,16 @@ const ALL: [&str; 14] = [
     POWER_FIGURE_FILE,
     AEM_FILE,
     NPZ_FILE,
+    MAT_FILE,
+    URDF_FILE,
+    MJCF_FILE,
+    JOINT_TRAJECTORY_FILE,
+    STK_FILE,
+    CK_FILE,
+    CLOCK_FILE,
+    FRAME_FILE,
+    BASILISK_FILE,
+    MUJOCO_FILE,
 ];
 
 /// Names of everything that belongs to a plan.

@@ -36,7 +36,10 @@ fn wrong_usage_exits_with_2_and_says_what_is_right() {
         (&["reach", "a.json", "--png"], "--out <DIR>"),
         (&["explain", "a.json", "--png"], "--out <DIR>"),
         (&["solve", "a.json", "--out", "b", "--figures", "none", "--png"], "no figure to write"),
-        (&["export", "a", "--format", "npz", "--frame", "ICRF"], "an archive holds the plan alone"),
+        (&["export", "a", "--format", "npz", "--frame", "ICRF"], "holds the plan alone"),
+        (&["export", "a", "--format", "aem", "--naif-id", "-5"], "no NAIF ID"),
+        (&["export", "a", "--format", "stk", "--object-name", "A"], "and no names"),
+        (&["export", "a", "--format", "ck", "--originator", "A"], "no originator"),
     ] {
         let run = run(arguments);
         assert_eq!(run.code, 2, "{arguments:?}");

@@ -79,6 +79,7 @@
 
 mod algebra;
 mod attitude;
+mod bodies;
 mod chain;
 mod clearance;
 mod composite;
@@ -103,6 +104,7 @@ mod turn;
 mod units;
 
 pub use attitude::Quaternion;
+pub use bodies::{HingedBody, Placement, RigidBody};
 pub use core::Core;
 pub use cuboid::Cuboid;
 pub use distance::Segment;

@@ -6,7 +6,7 @@ use righting_scenario::file::{Duration, DurationRange, ManeuverType, Scenario};
 use crate::number::{drawn, short};
 
 /// The maneuver in one phrase: "slew of 20° about [0.74, 0.02, 0.68] in 30 s".
-pub(crate) fn phrase(scenario: &Scenario) -> String {
+pub fn phrase(scenario: &Scenario) -> String {
     phrase_with(scenario, short)
 }
 

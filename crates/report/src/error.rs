@@ -2,36 +2,12 @@
 
 use std::path::PathBuf;
 
-use righting_scenario::error::Mismatch;
-
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] righting_scenario::Error),
-    /// A value is not one that the format of an export takes.
-    #[error("{keyword}: {mismatch}")]
-    Value {
-        /// The keyword it is for.
-        keyword: &'static str,
-        /// The value, and what the format takes.
-        mismatch: Mismatch,
-    },
-    /// The time tags of an attitude ephemeris would not increase or leave the calendar.
-    #[error(
-        "time tags: {}",
-        Mismatch::new(
-            format_args!("a step of {step_s} s from {epoch}"),
-            "at least 1e-9 s, up to the year 9999"
-        )
-    )]
-    TimeTags {
-        /// The step of the trajectory, s.
-        step_s: f64,
-        /// Its first time.
-        epoch: String,
-    },
     /// A figure could not be drawn as PNG.
     #[error("cannot draw {}: {problem}", path.display())]
     Png {
@@ -46,7 +22,4 @@ pub enum ReportError {
     /// PNGs are asked of a machine that has nothing to draw text with.
     #[error("cannot draw PNG: this machine has no fonts")]
     NoFonts,
-    /// An archive could not be made.
-    #[error("cannot make the archive: {0}")]
-    Archive(#[from] zip::result::ZipError),
 }

@@ -1,4 +1,4 @@
-//! Figures, pages, summaries and exports of solved maneuvers.
+//! Figures, pages and summaries of solved maneuvers.
 //!
 //! Everything here reads results, a [`Solution`](righting_results::Solution) with its
 //! [`Trajectory`](righting_results::Trajectory), and computes none: what a figure shows is what the
@@ -21,7 +21,6 @@
 //! against 270 kB in 550 here.
 #![forbid(unsafe_code)]
 
-mod aem;
 mod asked;
 mod attitude;
 mod axis;
@@ -38,7 +37,6 @@ mod heading;
 mod joints;
 mod maneuvers;
 mod momentum;
-mod npz;
 mod number;
 mod open_loop_errors;
 mod page;
@@ -59,7 +57,7 @@ mod svg;
 mod table;
 mod turn_rates;
 
-pub use aem::{AemOptions, aem};
+pub use asked::phrase as maneuver_phrase;
 pub use attitude::attitude_svg;
 pub use clearances::clearances_svg;
 pub use convergence::convergence_svg;
@@ -69,7 +67,6 @@ pub use figure_writer::FigureWriter;
 pub use joints::joints_svg;
 pub use maneuvers::maneuvers_svg;
 pub use momentum::momentum_svg;
-pub use npz::npz;
 pub use number::short;
 pub use open_loop_errors::open_loop_errors_svg;
 pub use page::{report_html, slews_html};

@@ -9,13 +9,15 @@ use std::fmt::Write;
 use jiff::SignedDuration;
 use jiff::civil::DateTime;
 use righting_results::{Node, Solution, Trajectory};
-use righting_scenario::error::Mismatch;
 
-use crate::{ReportError, asked};
+use crate::ExportError;
+use crate::attitude::{numbers, plain, value};
 
 /// What a message says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AemOptions {
+    /// What the maneuver is, in words.
+    pub maneuver: String,
     /// Time of the first node, in the time system.
     pub epoch: DateTime,
     /// When the message is made, UTC.
@@ -32,8 +34,6 @@ pub struct AemOptions {
     pub time_system: String,
 }
 
-/// The longest value that keeps a line within 254 characters.
-const LONGEST_VALUE: usize = 200;
 /// Name of the body frame.
 const BODY_FRAME: &str = "SC_BODY_1";
 const NANOSECONDS: f64 = 1e9;
@@ -41,15 +41,14 @@ const NANOSECONDS: f64 = 1e9;
 /// The attitude and the angular rate at every node as a message.
 ///
 /// # Errors
-/// [`ReportError::Value`] for a value that a line cannot hold; [`ReportError::TimeTags`] where nodes
+/// [`ExportError::Value`] for a value that a line cannot hold; [`ExportError::TimeTags`] where nodes
 /// are less than a nanosecond apart or leave the calendar.
 pub fn aem(
     solution: &Solution,
     trajectory: &Trajectory,
     options: &AemOptions,
-) -> Result<String, ReportError> {
+) -> Result<String, ExportError> {
     let tags = time_tags(trajectory, options.epoch)?;
-    let scenario = &solution.scenario;
     let mut text = String::new();
     let mut line = |arguments: std::fmt::Arguments<'_>| {
         text.write_fmt(arguments).expect("a string takes all that is written to it");
@@ -60,7 +59,7 @@ pub fn aem(
         "COMMENT {}",
         plain(&format!("Planned by Righting {}", solution.versions.righting))
     ));
-    line(format_args!("COMMENT {}", plain(&asked::phrase(scenario))));
+    line(format_args!("COMMENT {}", plain(&options.maneuver)));
     line(format_args!("COMMENT scenario SHA-256 {}", plain(&solution.scenario_sha256)));
     line(format_args!("CREATION_DATE = {:.0}", options.creation_date));
     line(format_args!("ORIGINATOR = {}", value("ORIGINATOR", &options.originator)?));
@@ -85,26 +84,10 @@ pub fn aem(
     Ok(text)
 }
 
-/// Q1 Q2 Q3 QC and the angular rate in deg/s, 16 digits each, as many as the format takes.
-fn numbers(node: &Node) -> String {
-    let [x, y, z, w] = {
-        let unit = asked::unit(node.attitude);
-        [unit.i, unit.j, unit.k, unit.w]
-    };
-    let rates = node.angular_rate_rad_s.map(f64::to_degrees);
-    let mut text = String::new();
-    for number in [x, y, z, w].into_iter().chain(rates) {
-        // The format has no negative zero.
-        let number = if number == 0.0 { 0.0 } else { number };
-        write!(text, " {number:.15e}").expect("a string takes all that is written to it");
-    }
-    text
-}
-
 /// The nodes' times, with as few of 3, 6 or 9 decimals as tell them to the nanosecond.
-fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, ReportError> {
+fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, ExportError> {
     let steps_s = trajectory.nodes().windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
-    let refused = || ReportError::TimeTags {
+    let refused = || ExportError::TimeTags {
         step_s: steps_s.clone().fold(f64::INFINITY, f64::min),
         epoch: epoch.to_string(),
     };
@@ -126,23 +109,4 @@ fn time_tags(trajectory: &Trajectory, epoch: DateTime) -> Result<Vec<String>, Re
         _ => 9,
     };
     Ok(times.into_iter().map(|time| format!("{time:.decimals$}")).collect())
-}
-
-/// A text value: printable ASCII on one line, upper case as the format asks for.
-fn value(keyword: &'static str, value: &str) -> Result<String, ReportError> {
-    let trimmed = value.trim();
-    let is_plain = trimmed.chars().all(|c| c == ' ' || c.is_ascii_graphic());
-    if trimmed.is_empty() || trimmed.len() > LONGEST_VALUE || !is_plain {
-        let expected = "1 to 200 printable ASCII characters";
-        let mismatch = Mismatch::new(format_args!("{value:?}"), expected);
-        return Err(ReportError::Value { keyword, mismatch });
-    }
-    Ok(trimmed.to_ascii_uppercase())
-}
-
-/// A comment of any text in printable ASCII.
-fn plain(comment: &str) -> String {
-    let spelt = comment.replace("°/s", "deg/s").replace('°', " deg");
-    let is_plain = |&c: &char| c == ' ' || c.is_ascii_graphic();
-    spelt.chars().filter(is_plain).take(LONGEST_VALUE).collect()
 }

@@ -1,0 +1,111 @@
+//! A Python script that flies a plan in Basilisk.
+
+use std::fmt::Write;
+
+use nalgebra::{Matrix3, SymmetricEigen};
+use righting_multibody::{Placement, RigidBody};
+use righting_results::{Solution, Trajectory};
+use righting_scenario::Scenario;
+
+use super::Flight;
+use super::python::{Constants, row};
+use crate::ExportError;
+use crate::arm::Arm;
+use crate::xml::number;
+
+/// The least principal moment of a body relative to its mass and the square of the system's size. A
+/// flight may amplify an error by 1e10, so it is as small as rounding allows.
+const LEAST: f64 = 1e-15;
+
+/// A Python script that builds the system in Basilisk, a spacecraft with a
+/// `spinningBodyNDOFStateEffector`, and flies the plan by its torques alone, nothing correcting them;
+/// it prints how far the end is from the plan's, and how far the largest torques are from those that
+/// Basilisk finds for the plan's accelerations. Everything it needs is in it. `maneuver` says in words
+/// what is flown.
+///
+/// A joint that turns no inertia holds its angle at the start, and of two joints on one axis without
+/// inertia between them the second makes the motion of both: torques tell no more. Bodies on joints
+/// that do not turn are part of the body before. Basilisk needs principal moments above zero: the
+/// least is 1e-15 of mass times the square of the system's size.
+///
+/// # Errors
+/// [`ExportError::Motion`] for a motion that cannot be followed.
+pub fn basilisk(
+    scenario: &Scenario,
+    solution: &Solution,
+    trajectory: &Trajectory,
+    maneuver: &str,
+) -> Result<Vec<u8>, ExportError> {
+    let flight = Flight::new(scenario, trajectory)?;
+    let mut constants = Constants::new(&flight, solution, trajectory, maneuver);
+    let (base, bodies) = turning_bodies(&flight.arm);
+    let attitudes = trajectory.nodes().iter().flat_map(|node| node.attitude);
+    constants.array("ATTITUDES", &[trajectory.nodes().len(), 4], attitudes);
+    let rates = trajectory.nodes().iter().flat_map(|node| node.angular_rate_rad_s);
+    constants.array("ANGULAR_RATES", &[trajectory.nodes().len(), 3], rates);
+    constants.value("BASE", &body(&base, None));
+    let mut list = String::from("[\n");
+    let size_m = scenario.system().model.size_m();
+    for (placement, mass) in &bodies {
+        let mass = with_moments(mass, size_m);
+        writeln!(list, "    {},", body(&mass, Some(placement)))
+            .expect("a string takes all that is written to it");
+    }
+    list.push(']');
+    constants.value("BODIES", &list);
+    Ok(constants.into_script(include_str!("basilisk.py")))
+}
+
+/// The base and the bodies on joints that turn, each with what is fixed to it; a body's frame is
+/// placed in that of the body before.
+fn turning_bodies(arm: &Arm) -> (RigidBody, Vec<(Placement, RigidBody)>) {
+    let mut base = arm.base;
+    let mut bodies: Vec<(Placement, RigidBody)> = Vec::new();
+    let mut end = Placement::identity();
+    for hinge in &arm.hinges {
+        end = end.then(&hinge.placed());
+        match (hinge.held_rad, bodies.last_mut()) {
+            (None, _) => {
+                bodies.push((end, hinge.body));
+                end = Placement::identity();
+            }
+            (Some(_), Some((_, last))) => *last = last.joined(&hinge.body, &end),
+            (Some(_), None) => base = base.joined(&hinge.body, &end),
+        }
+    }
+    (base, bodies)
+}
+
+/// The body with no principal moment below the least that is told from zero.
+fn with_moments(body: &RigidBody, size_m: f64) -> RigidBody {
+    let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(body.inertia_kg_m2);
+    let least = LEAST * body.mass_kg * size_m.powi(2);
+    if eigenvalues.min() >= least {
+        return *body;
+    }
+    let moments = Matrix3::from_diagonal(&eigenvalues.map(|moment| moment.max(least)));
+    let inertia = eigenvectors * moments * eigenvectors.transpose();
+    RigidBody { inertia_kg_m2: (inertia + inertia.transpose()) * 0.5, ..*body }
+}
+
+/// A dictionary in Python's words.
+fn body(body: &RigidBody, placement: Option<&Placement>) -> String {
+    let matrix = |matrix: &Matrix3<f64>| {
+        let rows = matrix.row_iter().map(|of_row| row(of_row.iter().copied()));
+        format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+    };
+    let mut text = format!(
+        "dict(mass_kg={}, center_m={}, inertia_kg_m2={}",
+        number(body.mass_kg),
+        row(body.center_of_mass_m.iter().copied()),
+        matrix(&body.inertia_kg_m2),
+    );
+    if let Some(Placement { position_m, rotation }) = placement {
+        let position = row(position_m.iter().copied());
+        let to_body = matrix(&rotation.transpose());
+        write!(text, ", position_m={position}, from_parent={to_body}")
+            .expect("a string takes all that is written to it");
+    }
+    text.push(')');
+    text
+}

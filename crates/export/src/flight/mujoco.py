@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Fly a plan of Righting in MuJoCo by its torques alone; nothing corrects them.
+
+Written by `righting export --format mujoco`; needs `mujoco` and `numpy`. Within a step of the plan the joint
+accelerations are constant and the torques are polynomials of degree six. MuJoCo asks for them at every stage
+of its Runge-Kutta method. Printed are how far the end is from the plan's, and how far the largest torque of
+each joint is from the largest that MuJoCo's own equations need for the plan's accelerations along the flight.
+
+Some motions are unstable: an error of the joints grows until they leave the plan, however exact the torques are.
+With --track the joints are held to the plan, and what that takes is printed as well.
+"""
+
+import argparse
+import base64
+import json
+
+import mujoco
+import numpy as np
+
+
+def decoded(text, shape):
+    return np.frombuffer(base64.b64decode(text), "<f8").reshape(shape)
+
+
+# CONSTANTS
+
+
+# How fast a tracked joint returns, 1/s.
+RETURN = 10.0
+
+
+def fly(step_s, track):
+    """The flight in steps of at most `step_s`."""
+    substeps = max(1, round(np.ceil((TIMES[1] - TIMES[0]) / step_s - 1e-6)))
+    model = mujoco.MjModel.from_xml_string(MODEL)
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    # The plan keeps the limits of the joints; here nothing but the motors acts, as they are told.
+    for disabled in (mujoco.mjtDisableBit.mjDSBL_CONSTRAINT, mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL):
+        model.opt.disableflags |= int(disabled)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    step, held = 0, np.zeros(len(JOINTS))
+    needed, largest_held = np.zeros(TORQUES.shape), np.zeros(len(JOINTS))
+
+    def motors(_, data):
+        place = 2 * (data.time - TIMES[step]) / (TIMES[step + 1] - TIMES[step]) - 1
+        data.ctrl[:] = place ** np.arange(7) @ TORQUE_COEFFICIENTS[step] + held
+
+    mujoco.set_mjcb_control(motors)
+    try:
+        for step in range(len(TORQUES)):
+            mass, bias = reduced(model, data)
+            needed[step] = mass @ ACCELERATIONS[step] + bias
+            model.opt.timestep = (TIMES[step + 1] - TIMES[step]) / substeps
+            for part in range(substeps):
+                data.time = TIMES[step] + part * model.opt.timestep
+                if track:
+                    angles, rates = planned(step, part * model.opt.timestep)
+                    angles, rates = data.qpos[7:] - angles, data.qvel[6:] - rates
+                    held = -mass @ (2 * RETURN * rates + RETURN**2 * angles)
+                    largest_held = np.maximum(largest_held, np.abs(held))
+                mujoco.mj_step(model, data)
+    finally:
+        mujoco.set_mjcb_control(None)
+    outcome = {
+        "simulator": f"MuJoCo {mujoco.__version__}",
+        "integrator": "RK4",
+        "step_s": model.opt.timestep,
+        "attitude_error_rad": angle_between(data.qpos[3:7], END_ATTITUDE),
+        "joint_error_rad": float(np.abs(data.qpos[7:] - ANGLES[-1]).max(initial=0.0)),
+        "peak_torque_difference_percent": percent(np.abs(needed).max(axis=0) - np.abs(TORQUES).max(axis=0)),
+    }
+    return outcome | ({"tracking_torque_percent": percent(largest_held)} if track else {})
+
+
+def reduced(model, data):
+    """Mass matrix and bias forces of the joints, the base moving freely."""
+    mujoco.mj_forward(model, data)
+    mass = np.zeros((model.nv, model.nv))
+    for row, unit in zip(mass, np.eye(model.nv)):
+        mujoco.mj_mulM(model, data, row, unit)
+    bias = data.qfrc_bias
+    of_base = np.linalg.solve(mass[:6, :6], np.c_[mass[:6, 6:], bias[:6]])
+    return mass[6:, 6:] - mass[6:, :6] @ of_base[:, :-1], bias[6:] - mass[6:, :6] @ of_base[:, -1]
+
+def planned(step, time_s):
+    """Angles and rates of the joints in a step of the plan."""
+    rates = RATES[step] + time_s * ACCELERATIONS[step]
+    return ANGLES[step] + time_s * (RATES[step] + rates) / 2, rates
+
+
+def percent(torques):
+    """The largest of these torques in percent of its joint's peak, where that is one."""
+    peaks = np.abs(TORQUES).max(axis=0)
+    counts = peaks > 1e-6 * peaks.max(initial=0.0)
+    return float((100 * np.abs(torques[counts]) / peaks[counts]).max(initial=0.0))
+
+
+def angle_between(a, b):
+    a, b = (np.asarray(q) / np.linalg.norm(q) for q in (a, b))
+    return float(4 * np.arcsin(min(np.linalg.norm(a - b), np.linalg.norm(a + b)) / 2))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=f"Fly {NAME} ({MANEUVER}) in MuJoCo by its torques alone.")
+    parser.add_argument("--step", type=float, default=0.005, help="the largest step of MuJoCo, s; 0.005 by default")
+    parser.add_argument("--track", action="store_true", help="hold the joints to the plan")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    arguments = parser.parse_args()
+    outcome = fly(arguments.step, arguments.track)
+    if arguments.json:
+        print(json.dumps(outcome))
+        return
+    print(f"{NAME}: {MANEUVER}")
+    print(f"{outcome['simulator']}, {outcome['integrator']}, steps of {1000 * outcome['step_s']:.3g} ms")
+    print(f"attitude error at the end: {outcome['attitude_error_rad']:.1e} rad")
+    print(f"joint error at the end:    {outcome['joint_error_rad']:.1e} rad")
+    print(f"peak torque difference:    {outcome['peak_torque_difference_percent']:.1e} %")
+    if arguments.track:
+        print(f"torque for tracking:       {outcome['tracking_torque_percent']:.1e} %")
+
+
+if __name__ == "__main__":
+    main()

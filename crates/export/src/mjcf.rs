@@ -1,0 +1,220 @@
+//! The whole system as MJCF, MuJoCo's own format: the base on a free joint, no gravity.
+
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
+use righting_multibody::{Placement, RigidBody};
+use righting_results::{Node, Trajectory};
+use righting_scenario::{JointLimits, SystemDescription};
+
+use crate::arm::{Arm, BASE, Hinge, TIP};
+use crate::xml::Element;
+
+/// What stands for an angle without a limit where the joint has another.
+const UNLIMITED: f64 = 1e9;
+/// The least mass (kg) and principal moment (kg m²) of a body on a joint; MuJoCo refuses less than
+/// 1e-15.
+const LEAST: f64 = 1e-14;
+
+/// The system as an MJCF model, with the plan's first and last node as its key frames `start` and
+/// `end`.
+///
+/// The body `base` is on a free joint; no gravity, armature, damping or friction. Body `link_i` is
+/// what `joint_i` turns, in the frame whose z axis is the joint's axis where all angles are zero. A
+/// payload is part of the last body. Joint angles are the plan's. Every joint has a motor of the same
+/// name, whose control is its torque, within the joint's limit; locked joints are none, their bodies
+/// are fixed. A joint's rate and acceleration limits stand in `custom`, since MJCF has none. The site `tip` is the last frame.
+///
+/// MuJoCo refuses bodies without mass on a joint. A massless link is therefore no body: its joint
+/// turns the next body with mass, which is the same motion. Where none follows, and for principal
+/// moments of zero such as a rod's about itself, 1e-14 kg and kg m² stand for zero.
+pub fn mjcf(system: &SystemDescription, trajectory: &Trajectory) -> String {
+    model(system, &Arm::new(system), trajectory).to_string()
+}
+
+/// The model of an arm with the key frames of a trajectory.
+pub(crate) fn model(system: &SystemDescription, arm: &Arm, trajectory: &Trajectory) -> Element {
+    let turning = || arm.hinges.iter().filter(|hinge| hinge.held_rad.is_none());
+    let joint = Element::new("joint")
+        .with_number("armature", 0.0)
+        .with_number("damping", 0.0)
+        .with_number("frictionloss", 0.0);
+    let mut custom = Element::new("custom");
+    let mut actuator = Element::new("actuator");
+    for hinge in turning() {
+        actuator.push(motor(hinge));
+    }
+    let of_joints = |name, of: fn(&JointLimits) -> f64| {
+        Element::new("numeric")
+            .with("name", name)
+            .with_numbers("data", turning().map(|hinge| of(&hinge.limits)))
+    };
+    if turning().next().is_some() {
+        custom.push(of_joints("rate_max_rad_s", |limits| limits.rate_max_rad_s));
+        let of = |limits: &JointLimits| limits.acceleration_max_rad_s2;
+        custom.push(of_joints("acceleration_max_rad_s2", of));
+    }
+    let keys = Element::new("keyframe")
+        .holding(key("start", arm, trajectory.start()))
+        .holding(key("end", arm, trajectory.end()));
+    Element::new("mujoco")
+        .with("model", &system.name)
+        .noting("SI units and radians; motors take torques in N m")
+        .holding(Element::new("compiler").with("angle", "radian"))
+        .holding(Element::new("option").with_numbers("gravity", [0.0; 3]).with("integrator", "RK4"))
+        .holding(Element::new("default").holding(joint))
+        .holding(custom)
+        .holding(Element::new("worldbody").holding(bodies(arm)))
+        .holding(actuator)
+        .holding(keys)
+}
+
+fn motor(hinge: &Hinge) -> Element {
+    let motor = Element::new("motor").with("name", &hinge.joint).with("joint", &hinge.joint);
+    let largest_n_m = hinge.limits.torque_max_n_m;
+    match largest_n_m.is_finite() {
+        true => {
+            motor.with("ctrllimited", "true").with_numbers("ctrlrange", [-largest_n_m, largest_n_m])
+        }
+        false => motor,
+    }
+}
+
+/// A body with its joints, in the frame of the body before that is in the model.
+struct Body<'a> {
+    name: &'a str,
+    placement: Placement,
+    joints: Vec<Joint<'a>>,
+    mass: &'a RigidBody,
+}
+
+/// A joint in the frame of the body that it turns.
+#[derive(Clone)]
+struct Joint<'a> {
+    hinge: &'a Hinge,
+    axis: Vector3<f64>,
+    position_m: Vector3<f64>,
+}
+
+impl<'a> Body<'a> {
+    /// All bodies beyond the base that the model has, outward, and the frame of the last hinge in that
+    /// of the last of them.
+    fn of(arm: &'a Arm) -> (Vec<Self>, Placement) {
+        let mut bodies = Vec::new();
+        let mut placement = Placement::identity();
+        let mut joints: Vec<Joint<'a>> = Vec::new();
+        for (index, hinge) in arm.hinges.iter().enumerate() {
+            let step = hinge.placed();
+            placement = placement.then(&step);
+            for joint in &mut joints {
+                *joint = joint.seen_from(&step);
+            }
+            if hinge.held_rad.is_none() {
+                joints.push(Joint { hinge, axis: Vector3::z(), position_m: Vector3::zeros() });
+            }
+            let is_last = index + 1 == arm.hinges.len();
+            if hinge.body.mass_kg > 0.0 || is_last && !joints.is_empty() {
+                let joints = std::mem::take(&mut joints);
+                bodies.push(Self { name: &hinge.link, placement, joints, mass: &hinge.body });
+                placement = Placement::identity();
+            }
+        }
+        (bodies, placement)
+    }
+
+    fn element(&self) -> Element {
+        let mut body = placed(Element::new("body").with("name", self.name), &self.placement);
+        for joint in &self.joints {
+            body.push(joint.element());
+        }
+        let least = if self.joints.is_empty() { 0.0 } else { LEAST };
+        body.holding(inertial(self.mass, least))
+    }
+}
+
+impl Joint<'_> {
+    /// The same joint in a frame that sits at `placement` in this one.
+    fn seen_from(&self, placement: &Placement) -> Self {
+        let back = placement.rotation.transpose();
+        Self {
+            axis: back * self.axis,
+            position_m: back * (self.position_m - placement.position_m),
+            ..self.clone()
+        }
+    }
+
+    fn element(&self) -> Element {
+        let JointLimits { angle_min_rad, angle_max_rad, .. } = self.hinge.limits;
+        let is_limited = angle_min_rad.is_finite() || angle_max_rad.is_finite();
+        let joint = Element::new("joint")
+            .with("name", &self.hinge.joint)
+            .with("type", "hinge")
+            .with_numbers("pos", self.position_m.iter().copied())
+            .with_numbers("axis", self.axis.iter().copied())
+            .with("limited", if is_limited { "true" } else { "false" });
+        match is_limited {
+            true => joint.with_numbers(
+                "range",
+                [angle_min_rad.max(-UNLIMITED), angle_max_rad.min(UNLIMITED)],
+            ),
+            false => joint,
+        }
+    }
+}
+
+fn bodies(arm: &Arm) -> Element {
+    let (bodies, end) = Body::of(arm);
+    let mut beyond = placed(Element::new("site").with("name", TIP), &end.then(&arm.tip));
+    for body in bodies.iter().rev() {
+        beyond = body.element().holding(beyond);
+    }
+    Element::new("body")
+        .with("name", BASE)
+        .holding(Element::new("freejoint").with("name", BASE))
+        .holding(inertial(&arm.base, LEAST))
+        .holding(beyond)
+}
+
+fn placed(element: Element, placement: &Placement) -> Element {
+    let rotation = Rotation3::from_matrix_unchecked(placement.rotation);
+    element
+        .with_numbers("pos", placement.position_m.iter().copied())
+        .with_numbers("quat", wxyz(&UnitQuaternion::from_rotation_matrix(&rotation)))
+}
+
+fn wxyz(quaternion: &UnitQuaternion<f64>) -> [f64; 4] {
+    [quaternion.w, quaternion.i, quaternion.j, quaternion.k]
+}
+
+/// Principal moments and axes, so that MuJoCo has none to find: it does so to 1e-12 only.
+fn inertial(body: &RigidBody, least: f64) -> Element {
+    let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(body.inertia_kg_m2);
+    let moments = physical(eigenvalues, least);
+    let is_right_handed = eigenvectors.determinant() > 0.0;
+    let axes = if is_right_handed { eigenvectors } else { -eigenvectors };
+    let axes = Rotation3::from_matrix_unchecked(Matrix3::from(axes));
+    Element::new("inertial")
+        .with_numbers("pos", body.center_of_mass_m.iter().copied())
+        .with_numbers("quat", wxyz(&UnitQuaternion::from_rotation_matrix(&axes)))
+        .with_number("mass", body.mass_kg.max(least))
+        .with_numbers("diaginertia", moments.iter().copied())
+}
+
+/// Principal moments that are at least `least`, none of them larger than the two others together:
+/// rounding may leave a rod's so.
+fn physical(moments: Vector3<f64>, least: f64) -> Vector3<f64> {
+    let moments = moments.map(|moment| moment.max(least));
+    let total = moments.sum();
+    moments.map(|moment| moment.min(total - moment))
+}
+
+fn key(name: &str, arm: &Arm, node: &Node) -> Element {
+    let turning = |values: &[f64]| -> Vec<f64> {
+        let joints = arm.hinges.iter().zip(values);
+        joints.filter(|(hinge, _)| hinge.held_rad.is_none()).map(|(_, value)| *value).collect()
+    };
+    let place = node.position_m.into_iter().chain(node.attitude);
+    let motion = node.velocity_m_s.into_iter().chain(node.angular_rate_rad_s);
+    Element::new("key")
+        .with("name", name)
+        .with_numbers("qpos", place.chain(turning(&node.joint_angles_rad)))
+        .with_numbers("qvel", motion.chain(turning(&node.joint_rates_rad_s)))
+}

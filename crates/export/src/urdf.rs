@@ -1,0 +1,132 @@
+//! The whole system as URDF: the base as root link, floating when the file is loaded.
+
+use nalgebra::{Matrix3, Vector3};
+use righting_multibody::{Placement, RigidBody};
+use righting_scenario::{JointLimits, SystemDescription};
+
+use crate::arm::{Arm, BASE, Hinge, TIP};
+use crate::xml::Element;
+
+/// What stands for an angle or an effort without a limit: URDF has no infinity, and a joint that is
+/// limited in rate must have an effort.
+const UNLIMITED: f64 = 1e9;
+
+/// The system as a URDF robot.
+///
+/// The root link `base` is the base; whoever loads the file lets it float (URDF itself has no free
+/// root). Link i is the body that joint i turns, in the frame whose z axis is the axis of joint i;
+/// a payload is part of the last link, and what moves with no joint is part of the base. Joint angles
+/// are the plan's. Locked joints are `fixed`, joints without limits of angle `continuous`. A limit
+/// that there is not stands as 1e9, that of the effort among them. Links without mass have no
+/// `inertial`. The link `tip` is the last frame.
+pub fn urdf(system: &SystemDescription) -> String {
+    let arm = Arm::new(system);
+    let mut robot = Element::new("robot")
+        .with("name", &system.name)
+        .noting("SI units and radians. The root link floats freely; there is no gravity.")
+        .holding(link(BASE, &arm.base));
+    let mut parent = BASE;
+    for hinge in &arm.hinges {
+        robot.push(link(&hinge.link, &hinge.body));
+        robot.push(joint(hinge, parent));
+        parent = &hinge.link;
+    }
+    robot.push(Element::new("link").with("name", TIP));
+    robot.push(connection("tip_joint", "fixed", parent, TIP, &arm.tip));
+    robot.to_string()
+}
+
+fn link(name: &str, body: &RigidBody) -> Element {
+    let link = Element::new("link").with("name", name);
+    if body.mass_kg == 0.0 {
+        return link;
+    }
+    let moment = |row, column| body.inertia_kg_m2[(row, column)];
+    link.holding(
+        Element::new("inertial")
+            .holding(
+                Element::new("origin")
+                    .with_numbers("xyz", body.center_of_mass_m.iter().copied())
+                    .with_numbers("rpy", [0.0; 3]),
+            )
+            .holding(Element::new("mass").with_number("value", body.mass_kg))
+            .holding(
+                Element::new("inertia")
+                    .with_number("ixx", moment(0, 0))
+                    .with_number("ixy", moment(0, 1))
+                    .with_number("ixz", moment(0, 2))
+                    .with_number("iyy", moment(1, 1))
+                    .with_number("iyz", moment(1, 2))
+                    .with_number("izz", moment(2, 2)),
+            ),
+    )
+}
+
+fn joint(hinge: &Hinge, parent: &str) -> Element {
+    let JointLimits { angle_min_rad, angle_max_rad, rate_max_rad_s, torque_max_n_m, .. } =
+        hinge.limits;
+    let is_limited = angle_min_rad.is_finite() || angle_max_rad.is_finite();
+    let kind = match (hinge.held_rad, is_limited) {
+        (Some(_), _) => "fixed",
+        (None, true) => "revolute",
+        (None, false) => "continuous",
+    };
+    let joint = connection(&hinge.joint, kind, parent, &hinge.link, &hinge.placed());
+    if hinge.held_rad.is_some() {
+        return joint;
+    }
+    let mut limit = Element::new("limit");
+    if is_limited {
+        limit = limit
+            .with_number("lower", angle_min_rad.max(-UNLIMITED))
+            .with_number("upper", angle_max_rad.min(UNLIMITED));
+    }
+    limit = limit
+        .with_number("velocity", rate_max_rad_s)
+        .with_number("effort", torque_max_n_m.min(UNLIMITED));
+    joint.holding(Element::new("axis").with_numbers("xyz", [0.0, 0.0, 1.0])).holding(limit)
+}
+
+fn connection(name: &str, kind: &str, parent: &str, child: &str, place: &Placement) -> Element {
+    let origin = Element::new("origin")
+        .with_numbers("xyz", place.position_m.iter().copied())
+        .with_numbers("rpy", roll_pitch_yaw(&place.rotation).iter().copied());
+    Element::new("joint")
+        .with("name", name)
+        .with("type", kind)
+        .holding(Element::new("parent").with("link", parent))
+        .holding(Element::new("child").with("link", child))
+        .holding(origin)
+}
+
+/// Angles of R = Rz(yaw) Ry(pitch) Rx(roll), rad. Yaw is taken off before roll is read, so that the
+/// three together are R to rounding at a pitch of a right angle too, where each by itself is not
+/// determined.
+fn roll_pitch_yaw(rotation: &Matrix3<f64>) -> Vector3<f64> {
+    let yaw = rotation[(1, 0)].atan2(rotation[(0, 0)]);
+    let (sin, cos) = yaw.sin_cos();
+    let about_z = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    let rest = about_z.transpose() * rotation;
+    let pitch = (-rest[(2, 0)]).atan2(rest[(0, 0)]);
+    let roll = (-rest[(1, 2)]).atan2(rest[(1, 1)]);
+    Vector3::new(roll, pitch, yaw)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn the_three_angles_are_the_rotation_at_any_pitch() {
+        for pitch_deg in [0.0, 30.0, -90.0, 90.0, 90.0 - 1e-7, 90.0 - 1e-12, 120.0] {
+            for (roll_deg, yaw_deg) in [(0.0, 0.0), (90.0, 180.0), (-37.0, 161.0), (10.0, -90.0)] {
+                let [roll, pitch, yaw] = [roll_deg, pitch_deg, yaw_deg].map(f64::to_radians);
+                let rotation = Rotation3::from_euler_angles(roll, pitch, yaw).into_inner();
+                let found = roll_pitch_yaw(&rotation);
+                let again = Rotation3::from_euler_angles(found.x, found.y, found.z).into_inner();
+                assert!((again - rotation).amax() < 1e-15, "{roll_deg} {pitch_deg} {yaw_deg}");
+            }
+        }
+    }
+}
