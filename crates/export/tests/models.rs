@@ -108,7 +108,7 @@ fn a_payload_a_turned_mount_and_a_locked_joint_are_in_the_models() {
             mass_kg: 12.0,
             inertia_kg_m2: Some([[1.0, 0.1, 0.0], [0.1, 1.5, 0.2], [0.0, 0.2, 2.0]]),
             radius_m: None,
-            shapes: Vec::new(),
+            shapes: None,
         });
         file.initial.joint_angles_deg[2] = 25.0;
     });
