@@ -49,7 +49,7 @@ fn the_message_names_the_field_and_what_is_expected() {
         (
             "/horizon/duration_s",
             json!("long"),
-            "horizon.duration_s: found \"long\", expected a number",
+            "horizon.duration_s: found \"long\", expected a number, or an object with `min` and `max`",
         ),
         (
             "/horizon",

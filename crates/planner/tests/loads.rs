@@ -69,6 +69,9 @@ fn assert_verified(what: &str, planned: &Planned) {
     );
 }
 
+/// What is changed in a system.
+type Change<'a> = Box<dyn Fn(&mut file::System) + 'a>;
+
 /// A share of what a plan without a limit takes is the limit: the plan with it keeps it, and costs more.
 #[test]
 fn each_limit_alone_and_all_together_are_kept_by_every_arm() {
@@ -78,7 +81,7 @@ fn each_limit_alone_and_all_together_are_kept_by_every_arm() {
         let peaks = peaks(&free_scenario, &free);
         // The base of a detumble turns fastest where it starts.
         let rate_share = if name.starts_with("slew") { 0.9 } else { 1.001 };
-        let limits: [(&str, Box<dyn Fn(&mut file::System)>); 5] = [
+        let limits: [(&str, Change<'_>); 5] = [
             (
                 "torques",
                 Box::new(|system| {
