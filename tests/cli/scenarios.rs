@@ -79,6 +79,25 @@ fn every_real_maneuver_is_planned_and_verified() {
 }
 
 #[test]
+fn every_limit_along_the_way_is_listed_with_its_worst_place() {
+    let solution = solve("real/slew_canadarm2_limits");
+    let limits = solution["limits"].as_array().unwrap();
+    let of = |name: &str, subject: &str| {
+        let found = limits.iter().find(|l| l["name"] == name && l["subject"] == subject);
+        found.unwrap_or_else(|| panic!("no {name} of {subject}"))
+    };
+    let torque = of("joint torque", "joint 1");
+    assert_eq!((number(&torque["bound"]), &torque["unit"]), (2332.0, &Value::from("N m")));
+    assert!(number(&torque["value"]) > 0.0 && number(&torque["value"]) < 2332.0);
+    let angle = of("joint angle between nodes", "joint 3");
+    assert!((number(&angle["value"]) - number(&angle["bound"])).abs() < 1e-3);
+    assert!((0.0..=60.0).contains(&number(&angle["time_s"])));
+    // Checks of the model and of the end are no limits.
+    assert!(limits.len() < solution["verification"]["checks"].as_array().unwrap().len());
+    assert!(limits.iter().all(|limit| limit["name"] != "attitude error at the end"));
+}
+
+#[test]
 fn slew_2dof() {
     check("slew_2dof");
 }

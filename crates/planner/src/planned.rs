@@ -81,6 +81,7 @@ impl Planned {
             duration_s,
             terminal,
             timing_s,
+            limits: verification.limits(),
             verification,
             bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
             stopped_deg_s: is_detumble.then(|| scenario.stopped_rate_rad_s().to_degrees()),

@@ -25,7 +25,7 @@ pub use solution::{
     AttemptRecord, IterationRecord, Solution, Status, Terminal, Timing, UsedOptimizer, Versions,
 };
 pub use trajectory::{ControlInterval, Node, Trajectory};
-pub use verification::{Check, Sense, Verification};
+pub use verification::{Check, LimitRecord, Sense, Verification};
 
 /// Name of the file of the trajectory in a result folder.
 pub const TRAJECTORY_FILE: &str = "trajectory.csv";

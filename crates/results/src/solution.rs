@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::finite_or_null::FiniteOrNull;
-use crate::verification::Verification;
+use crate::verification::{LimitRecord, Verification};
 
 /// Value of the field `schema`.
 pub const SCHEMA: &str = "righting.solution/1";
@@ -49,6 +49,9 @@ pub struct Solution {
     pub timing_s: Timing,
     /// Outcome of the independent check.
     pub verification: Verification,
+    /// Every limit's worst place along the way, at the nodes and between them, by the independent check.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<LimitRecord>,
     /// Detumble: no motion that stops the arm can leave less angular rate, deg/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound_deg_s: Option<f64>,

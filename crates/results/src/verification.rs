@@ -55,8 +55,33 @@ pub struct Check {
     /// Time of the worst place, s, where the check has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
+    /// Whether it is about a limit that holds along the way.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_limit: bool,
     /// Whether it passed.
     pub passed: bool,
+}
+
+/// How near a plan comes to a limit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LimitRecord {
+    /// What is limited, and whether at the nodes or between them.
+    pub name: String,
+    /// The joint, link or pair of links, or instrument, where the limit has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
+    /// The value at the worst place.
+    #[serde(with = "FiniteOrNull")]
+    pub value: f64,
+    /// What the value must not exceed, or must not fall below.
+    pub bound: f64,
+    /// Which of the two.
+    pub sense: Sense,
+    /// Unit of value and bound; empty for a pure number.
+    pub unit: String,
+    /// Time of the worst place, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
 }
 
 /// Which side of its limit a value must be on.
@@ -70,6 +95,22 @@ pub enum Sense {
 }
 
 impl Verification {
+    /// Every limit that holds along the way, at its worst place.
+    pub fn limits(&self) -> Vec<LimitRecord> {
+        let limits = self.checks.iter().filter(|check| check.is_limit);
+        limits
+            .map(|check| LimitRecord {
+                name: check.name.clone(),
+                subject: check.subject.clone(),
+                value: check.value,
+                bound: check.limit,
+                sense: check.sense,
+                unit: check.unit.clone(),
+                time_s: check.time_s,
+            })
+            .collect()
+    }
+
     /// The checks that failed.
     pub fn failures(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| !check.passed)
@@ -131,6 +172,7 @@ mod tests {
             tolerance: 0.0,
             unit: "deg/s".to_owned(),
             time_s: Some(60.0),
+            is_limit: false,
             passed: false,
         };
         let said = |value| check(value).to_string();

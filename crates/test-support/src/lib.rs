@@ -171,6 +171,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         duration_s: None,
         terminal: Terminal::reached(scenario, trajectory),
         timing_s: Timing::default(),
+        limits: verify(scenario, trajectory).limits(),
         verification: verify(scenario, trajectory),
         bound_deg_s: None,
         stopped_deg_s: None,

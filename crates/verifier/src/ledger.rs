@@ -21,6 +21,7 @@ pub(super) struct Worst {
     name: &'static str,
     unit: &'static str,
     tolerance: f64,
+    is_limit: bool,
     place: Option<Place>,
 }
 
@@ -61,7 +62,12 @@ impl Place {
 
 impl Worst {
     pub fn new(name: &'static str, unit: &'static str, tolerance: f64) -> Self {
-        Self { name, unit, tolerance, place: None }
+        Self { name, unit, tolerance, is_limit: false, place: None }
+    }
+
+    /// Of a limit that holds along the way.
+    pub fn of_limit(name: &'static str, unit: &'static str, tolerance: f64) -> Self {
+        Self { is_limit: true, ..Self::new(name, unit, tolerance) }
     }
 
     /// A value that must not exceed `limit`.
@@ -138,6 +144,7 @@ impl Ledger {
             tolerance: worst.tolerance,
             unit: worst.unit.to_owned(),
             time_s: place.time_s,
+            is_limit: worst.is_limit,
             passed,
         });
         passed

@@ -47,8 +47,11 @@ pub(super) fn check(
         "clearance between links between nodes",
     ];
     let mut between = Limits::new(asked, names, &asked.tolerances.between_nodes);
-    let mut acceleration =
-        Worst::new("joint acceleration", "rad/s²", asked.tolerances.at_nodes.acceleration_rad_s2);
+    let mut acceleration = Worst::of_limit(
+        "joint acceleration",
+        "rad/s²",
+        asked.tolerances.at_nodes.acceleration_rad_s2,
+    );
     let mut joints = Joints::new(asked.joint_limits.len());
     let mut approach = ClosestApproach::new(asked, &simulation.start());
     let states = simulation.nodes().zip(simulation.nodes().skip(1));
@@ -102,10 +105,10 @@ impl<'a> Limits<'a> {
         let [angle, rate, body, links] = names;
         Self {
             asked,
-            angle: Worst::new(angle, "rad", tolerances.angle_rad),
-            rate: Worst::new(rate, "rad/s", tolerances.rate_rad_s),
-            body: Worst::new(body, "m", tolerances.distance_m),
-            links: Worst::new(links, "m", tolerances.distance_m),
+            angle: Worst::of_limit(angle, "rad", tolerances.angle_rad),
+            rate: Worst::of_limit(rate, "rad/s", tolerances.rate_rad_s),
+            body: Worst::of_limit(body, "m", tolerances.distance_m),
+            links: Worst::of_limit(links, "m", tolerances.distance_m),
             frames: vec![Pose::identity(); asked.model.joint_count() + 1],
         }
     }

@@ -57,7 +57,7 @@ struct Loads {
 impl Loads {
     fn new(limits: &LoadLimits) -> Self {
         let worst = |name, unit, limit: Option<f64>| {
-            limit.map(|limit| Worst::new(name, unit, SHARE * limit))
+            limit.map(|limit| Worst::of_limit(name, unit, SHARE * limit))
         };
         let torques = limits.torques_n_m.iter();
         Self {

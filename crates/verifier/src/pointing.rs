@@ -134,13 +134,13 @@ pub(super) fn check(
 ) {
     let tolerances = &asked.tolerances;
     for cone in &asked.cones {
-        let mut at_nodes = Worst::new("pointing at nodes", "rad", tolerances.attitude_rad);
+        let mut at_nodes = Worst::of_limit("pointing at nodes", "rad", tolerances.attitude_rad);
         for node in trajectory.nodes() {
             let angle_rad = cone.angle_rad(&State::of_node(node).attitude, node.time_s);
             cone.look(angle_rad, node.time_s, &mut at_nodes);
         }
         let tolerance_rad = tolerances.between_nodes.angle_rad;
-        let mut between = Worst::new("pointing between nodes", "rad", tolerance_rad);
+        let mut between = Worst::of_limit("pointing between nodes", "rad", tolerance_rad);
         for (k, state) in simulation.nodes().enumerate() {
             let time_s = asked.horizon.time_s(k);
             cone.look(cone.angle_rad(&state.attitude, time_s), time_s, &mut between);
