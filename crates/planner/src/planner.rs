@@ -54,6 +54,7 @@ pub struct Planner<'a> {
     library: Option<&'a mut PlanLibrary>,
     time_limit: Option<Duration>,
     tries_remedies: bool,
+    remedy_time: Duration,
     program: String,
 }
 
@@ -72,6 +73,7 @@ impl<'a> Planner<'a> {
             library: None,
             time_limit: None,
             tries_remedies: true,
+            remedy_time: REMEDY_TIME,
             program: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }
@@ -106,6 +108,12 @@ impl<'a> Planner<'a> {
     /// more plans, and its outcome stands in the notes.
     pub fn without_remedies(mut self) -> Self {
         self.tries_remedies = false;
+        self
+    }
+
+    /// Takes so much time to try what would help, beside twice that of the plan; a second if nothing is said.
+    pub fn remedy_time(mut self, time: Duration) -> Self {
+        self.remedy_time = time;
         self
     }
 
@@ -173,7 +181,7 @@ impl<'a> Planner<'a> {
         let mut planned = Planned::new(scenario, &scaling, found, ending, &self.program)?;
         if self.tries_remedies {
             let threads = self.threads;
-            let deadline = started.elapsed() * (1 + REMEDY_SHARE) + REMEDY_TIME;
+            let deadline = started.elapsed() * (1 + REMEDY_SHARE) + self.remedy_time;
             let limit = limit.map_or(deadline, |limit| limit.min(deadline));
             planned.solution.notes.extend(remedies(scenario, &planned, |changed| {
                 let mut is_stopped = false;

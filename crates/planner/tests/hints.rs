@@ -1,5 +1,7 @@
 //! A slew that misses its target says what would help, and that does help.
 
+use std::time::Duration;
+
 use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
@@ -16,7 +18,8 @@ fn slew_in(duration_s: f64, control: f64) -> Scenario {
 }
 
 fn planned(scenario: &Scenario) -> Planned {
-    Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
+    let mut planner = Planner::new().remedy_time(Duration::from_secs(3600));
+    planner.plan(scenario, &mut |_| Control::Continue).unwrap()
 }
 
 fn passes(scenario: &Scenario) -> bool {
