@@ -47,10 +47,8 @@ impl Planned {
         program: &str,
     ) -> Result<Self, ShapeError> {
         let duration_s = found.duration_share().map(|share| share * asked.horizon().duration_s);
-        let scenario = &match duration_s {
-            Some(duration_s) => asked.clone().with_duration(duration_s),
-            None => asked.clone(),
-        };
+        let chosen = duration_s.map(|duration_s| asked.clone().with_duration(duration_s));
+        let scenario = chosen.as_ref().unwrap_or(asked);
         let status = match (ending, status(found.solution.status)) {
             (Ending::Interrupted, _) => Status::Interrupted,
             (Ending::TimeLimit, _) => Status::TimeLimit,

@@ -159,6 +159,7 @@ pub fn true_slew(scenario: &Scenario) -> (Scenario, Trajectory) {
 
 /// What a solve that came to this trajectory would report.
 pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
+    let verification = verify(scenario, trajectory);
     Solution {
         schema: SCHEMA.to_owned(),
         scenario: scenario.resolved().clone(),
@@ -171,8 +172,8 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         duration_s: None,
         terminal: Terminal::reached(scenario, trajectory),
         timing_s: Timing::default(),
-        limits: verify(scenario, trajectory).limits(),
-        verification: verify(scenario, trajectory),
+        limits: verification.limits(),
+        verification,
         bound_deg_s: None,
         stopped_deg_s: None,
         reduction_percent: None,

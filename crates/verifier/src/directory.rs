@@ -51,7 +51,8 @@ pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
     let trajectory = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?;
     let mut ledger = Ledger { report: verify(&scenario, &trajectory) };
     check_claims(&solution, &scenario, &trajectory, &mut ledger);
-    let solution = Solution { verification: ledger.finish(), ..solution };
+    let verification = ledger.finish();
+    let solution = Solution { limits: verification.limits(), verification, ..solution };
     Ok(Verified { solution, scenario, trajectory })
 }
 

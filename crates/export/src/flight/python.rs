@@ -75,9 +75,11 @@ impl Constants {
         self.value(name, &value);
     }
 
-    /// The script: `template` with these constants where it says `# CONSTANTS`.
+    /// The script: `template`, which flies the plan, with these constants where it says `# CONSTANTS`, and
+    /// what every script does with the outcome.
     pub fn into_script(self, template: &str) -> Vec<u8> {
-        template.replacen("# CONSTANTS\n", &self.text, 1).into_bytes()
+        let flight = template.replacen("# CONSTANTS\n", &self.text, 1);
+        [&flight, "\n\n", include_str!("outcome.py")].concat().into_bytes()
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Between two moments a boresight goes no farther than the base turns. So with the angles θ₀ and θ₁ from the
 //! cone's axis there and the turn φ, it comes no nearer to the axis than (θ₀ + θ₁ − φ)/2, and no farther from
-//! it than (θ₀ + θ₁ + φ)/2; an axis that moves adds how far it does. Where that is not enough, the step is followed at places so close together that
-//! the base hardly turns between them.
+//! it than (θ₀ + θ₁ + φ)/2; an axis that moves adds how far it does. Where that is not enough, the step is
+//! followed at places so close together that the base hardly turns between them.
 
 use std::collections::BTreeMap;
 

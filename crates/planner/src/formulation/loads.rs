@@ -63,7 +63,7 @@ impl Loads {
     pub(super) fn bounds(&self, parts: usize) -> ComponentBounds {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for place in 0..=parts {
-            let signed = if self.has_forces() { self.torques.len() } else { 0 };
+            let signed = self.torques.len();
             lower.extend(vec![-1.0; signed]);
             let squares = self.squares(place);
             lower.extend(vec![f64::NEG_INFINITY; squares]);
@@ -147,7 +147,7 @@ impl Loads {
         for place in 0..=parts {
             let moment = coordinates.within(x, u, h * (place as f64 / parts as f64));
             for (index, share) in self.shares(&moment, place > 0).into_iter().enumerate() {
-                let is_torque = self.has_forces() && index < self.torques.len();
+                let is_torque = index < self.torques.len();
                 largest = largest.max(if is_torque { share.abs() } else { share.sqrt() });
             }
         }

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use righting_ocp::{ComponentBounds, Expr};
 use righting_scenario::JointLimits;
 
-use super::{Clearances, Cones, Coordinates, Loads};
+use super::{Clearances, Cones, Coordinates, Loads, joined};
 
 /// By how much more than needed a joint may be kept from its limit, rad …
 const MOST_TOO_MUCH_RAD: f64 = 2e-3;
@@ -90,8 +90,7 @@ impl StageLimits {
                 upper.push(most);
             }
         }
-        let of_loads = loads.bounds(self.load_parts);
-        ComponentBounds::new([lower, of_loads.lower].concat(), [upper, of_loads.upper].concat())
+        joined(ComponentBounds::new(lower, upper), loads.bounds(self.load_parts))
     }
 
     /// The middle control points of the joints' curves, then the distances, then the cosines of the
