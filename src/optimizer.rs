@@ -43,5 +43,6 @@ fn replace_process(_: &mut Command) {}
 /// rounding depend on the machine.
 pub fn load() -> Result<(), Failure> {
     righting_ipopt::keep_freed_memory();
+    righting_ipopt::prefer_huge_pages();
     Ok(righting_ipopt::use_one_blas_thread()?)
 }

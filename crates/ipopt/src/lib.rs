@@ -117,7 +117,7 @@ pub use diagnosis::{Diagnosis, LinearSolverSlot, Mumps, diagnose};
 pub use error::SolveError;
 pub use iterate::{Iterate, Violations, current_iterate, current_violations};
 pub use libraries::{LoadedLibrary, Versions, versions};
-pub use memory::keep_freed_memory;
+pub use memory::{keep_freed_memory, prefer_huge_pages};
 pub use righting_ipopt_sys::hsl::SlotError;
 pub use righting_ipopt_sys::{LoadError, STARTS_MPI, use_one_blas_thread};
 pub use solve::{solve, solve_with};
