@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay limits bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -43,6 +43,12 @@ replay: setup
 	cargo build --release --locked -p righting-export --example reference
 	target="$${CARGO_TARGET_DIR:-target}/release" && \
 		scripts/replay.sh --righting "$$target/righting" --reference "$$target/examples/reference"
+
+# What each limit costs, on three arms, every plan judged by Pinocchio: docs/limits.md. Gets a virtual environment
+# of its own.
+limits: setup
+	cargo build --release --locked
+	scripts/limits.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
 # All tests on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:

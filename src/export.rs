@@ -65,7 +65,7 @@ fn exported(
 ) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
     let Verified { solution, scenario, trajectory } = plan;
     let system = scenario.system();
-    let maneuver = maneuver_phrase(&solution.scenario);
+    let maneuver = maneuver_phrase(solution);
     let contents = match format {
         Format::Aem => {
             let options = message.of_aem(maneuver, &system.name);

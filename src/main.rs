@@ -12,6 +12,7 @@ mod explain;
 mod export;
 mod failure;
 mod figures;
+mod fly;
 mod hint;
 mod interrupt;
 mod manpages;
@@ -76,6 +77,7 @@ enum Command {
     /// Evaluate the cases of a sweep that a parent process sends.
     #[command(hide = true)]
     SweepWorker,
+    Fly(fly::Arguments),
     Figures(figures::Arguments),
     Export(export::Arguments),
     Schema(schema::Arguments),
@@ -103,6 +105,7 @@ fn main() -> ExitCode {
         Command::Power(arguments) => power::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::SweepWorker => sweep::work(),
+        Command::Fly(arguments) => fly::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -119,7 +122,10 @@ fn main() -> ExitCode {
 impl Command {
     /// Whether it solves anything in this process.
     fn solves(&self) -> bool {
-        matches!(self, Self::Solve(_) | Self::Reach(_) | Self::SweepWorker | Self::Doctor(_))
+        matches!(
+            self,
+            Self::Solve(_) | Self::Reach(_) | Self::Fly(_) | Self::SweepWorker | Self::Doctor(_)
+        )
     }
 
     fn prints_json(&self) -> bool {
@@ -131,6 +137,7 @@ impl Command {
             Self::Explain(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,
+            Self::Fly(arguments) => arguments.json,
             Self::Sweep(arguments) => arguments.prints_json(),
             Self::Figures(_)
             | Self::Export(_)

@@ -43,6 +43,8 @@ pub const JOINTS_FILE: &str = "joints.svg";
 pub const REPORT_FILE: &str = "report.html";
 /// The figure of the clearances.
 pub const CLEARANCES_FILE: &str = "clearances.svg";
+/// The figure of loads beside their limits.
+pub const LOADS_FILE: &str = "loads.svg";
 /// The figure of where instruments look.
 pub const POINTING_FILE: &str = "pointing.svg";
 /// The figure of the momentum's conservation.
@@ -83,13 +85,14 @@ pub const MUJOCO_FILE: &str = "fly_mujoco.py";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 24] = [
+const ALL: [&str; 25] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
     JOINTS_FILE,
     REPORT_FILE,
     CLEARANCES_FILE,
+    LOADS_FILE,
     POINTING_FILE,
     MOMENTUM_FILE,
     CONVERGENCE_FILE,

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
-use righting_analysis::PowerProfile;
+use righting_analysis::motors::{Braking, Losses};
 use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
+use righting_analysis::{Motors, PowerProfile};
 use righting_report::{PowerComparison, power_svg, power_table};
 use righting_scenario::Error;
 use righting_scenario::wheels::Wheel;
@@ -51,7 +52,31 @@ struct Printed<'a> {
     peak_joint_powers_w: Vec<f64>,
     work_j: Option<f64>,
     kinetic_energy_change_j: Option<f64>,
+    /// Only where every joint's motor is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motors: Option<PrintedMotors>,
     wheels: PrintedWheels<'a>,
+}
+
+#[derive(Serialize)]
+struct PrintedMotors {
+    without_regeneration: Consumption,
+    with_regeneration: Consumption,
+    losses: Losses,
+    peak_currents_a: Vec<f64>,
+    peak_voltages_v: Vec<f64>,
+}
+
+impl PrintedMotors {
+    fn new(motors: &Motors<'_>) -> Self {
+        Self {
+            without_regeneration: motors.consumption(Braking::Burnt),
+            with_regeneration: motors.consumption(Braking::FedBack),
+            losses: motors.losses(),
+            peak_currents_a: motors.peak_currents_a(),
+            peak_voltages_v: motors.peak_voltages_v(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -67,6 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let wheels = arguments.wheels.read()?;
     let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
+    let motors = Motors::new(&scenario.system().drives, &profile);
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
     let efficiency = arguments.efficiency;
     let consumption =
@@ -82,13 +108,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         peak_joint_powers_w: profile.peak_joint_powers_w(),
         work_j: finite(profile.work_j()),
         kinetic_energy_change_j: finite(profile.kinetic_energy_change_j()),
+        motors: motors.as_ref().map(PrintedMotors::new),
         wheels: PrintedWheels {
             array: wheels.wheels(),
             steady_power_w: wheels.steady_power_w(),
             energy_j: wheels.steady_power_w() * profile.duration_s(),
         },
     };
-    let comparison = PowerComparison { profile: &profile, efficiency, wheels: &wheels };
+    let comparison =
+        PowerComparison { profile: &profile, motors: motors.as_ref(), efficiency, wheels: &wheels };
     let json = output::to_json(&printed)?;
     folder.write(POWER_FILE, json.as_bytes())?;
     writer.write(folder.path(), POWER_FIGURE_FILE, &power_svg(&solution, comparison))?;

@@ -6,7 +6,7 @@ use righting_scenario::schema::{scenario_schema, system_schema, wheels_schema};
 use righting_sweep::sweep_schema;
 
 use crate::failure::Failure;
-use crate::{explain, output, reach};
+use crate::{explain, fly, output, reach};
 
 /// Print the JSON Schema of a file, input or result.
 #[derive(Args)]
@@ -32,6 +32,8 @@ enum File {
     Reach,
     /// What an arm can do, explain.json.
     Explain,
+    /// How a plan flies, fly.json.
+    Fly,
 }
 
 /// Prints the schema.
@@ -44,5 +46,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         File::Solution => solution_schema(),
         File::Reach => reach::schema(),
         File::Explain => explain::schema(),
+        File::Fly => fly::schema(),
     })
 }

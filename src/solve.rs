@@ -123,7 +123,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 /// Whether that is what was asked for.
-fn conclude(solution: &Solution) -> Result<(), Failure> {
+pub fn conclude(solution: &Solution) -> Result<(), Failure> {
     if solution.status == Status::Interrupted {
         return Err(Failure::Interrupted);
     }

@@ -30,7 +30,7 @@ MANEUVERS = (
 QUICK_PAPER = ("slew_2dof", "detumble_2dof")
 QUICK_REDUCED = ("slew_2dof", "detumble_2dof", "slew_4dof")
 # Runs of ours before and again after each CasADi run.
-REPEATS = 3
+REPEATS = 9
 # A CasADi solve shorter than this, in seconds, is as easily disturbed as ours: the median of as many runs.
 SHORT_S = 1.0
 # Load average above which wall-clock times are no longer this program's alone.

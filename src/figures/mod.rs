@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use righting_analysis::power::PAPER_EFFICIENCY;
-use righting_analysis::{Histories, PowerProfile};
+use righting_analysis::{Histories, Motors, PowerProfile};
 use righting_planner::PlanError;
 use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
     FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
-    momentum_svg, pointing_svg, power_svg, sparsity_svg,
+    loads_svg, momentum_svg, pointing_svg, power_svg, sparsity_svg,
 };
 use righting_results::{SOLUTION_FILE, Solution, Trajectory};
 use righting_scenario::{Error, Scenario, WheelArray};
@@ -22,8 +22,8 @@ use righting_verifier::Verified;
 pub use self::formats::Formats;
 use crate::failure::Failure;
 use crate::output_folder::{
-    ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, MOMENTUM_FILE, OutputFolder,
-    POINTING_FILE, POWER_FIGURE_FILE, SPARSITY_FILE,
+    ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, LOADS_FILE, MOMENTUM_FILE,
+    OutputFolder, POINTING_FILE, POWER_FIGURE_FILE, SPARSITY_FILE,
 };
 use crate::{output, plan_folder};
 
@@ -85,15 +85,22 @@ pub fn draw(
     }
     let histories = Histories::new(scenario, trajectory).map_err(Error::from)?;
     let profile = PowerProfile::new(scenario, trajectory).map_err(Error::from)?;
+    let motors = Motors::new(&scenario.system().drives, &profile);
     let wheels = WheelArray::pyramid();
-    let power =
-        PowerComparison { profile: &profile, efficiency: PAPER_EFFICIENCY, wheels: &wheels };
+    let power = PowerComparison {
+        profile: &profile,
+        motors: motors.as_ref(),
+        efficiency: PAPER_EFFICIENCY,
+        wheels: &wheels,
+    };
     let mut figures = vec![
         (ATTITUDE_FILE, attitude_svg(solution, trajectory)),
         (JOINTS_FILE, joints_svg(solution, trajectory)),
         (MOMENTUM_FILE, momentum_svg(solution, trajectory, &histories)),
         (POWER_FIGURE_FILE, power_svg(solution, power)),
     ];
+    let loads = loads_svg(solution, scenario.system(), &profile);
+    figures.extend(loads.map(|figure| (LOADS_FILE, figure)));
     let clearances = clearances_svg(solution, trajectory, &histories);
     figures.extend(clearances.map(|figure| (CLEARANCES_FILE, figure)));
     let pointing = pointing_svg(solution, trajectory, &histories);

@@ -91,8 +91,12 @@ pub fn run(scenarios: &Path, out: &Path, writer: &FigureWriter) -> Result<(), Fa
 
     let slew = &slews[1];
     let profile = profile(slew)?;
-    let power =
-        PowerComparison { profile: &profile, efficiency: PAPER_EFFICIENCY, wheels: &wheels };
+    let power = PowerComparison {
+        profile: &profile,
+        motors: None,
+        efficiency: PAPER_EFFICIENCY,
+        wheels: &wheels,
+    };
     let trades = trades(&slew.scenario, &interrupt)?;
 
     let pairs = |all: &[Planned]| -> Vec<(String, Solution, Trajectory)> {

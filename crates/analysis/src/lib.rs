@@ -6,6 +6,8 @@
 //! - [`holonomy`]: which rotations of the base the arm can make, and how fast;
 //! - [`impossible`]: maneuvers that no motion of the arm makes;
 //! - [`power`]: torques of a plan's joints, and the power they draw;
+//! - [`limited_loads`](mod@limited_loads): torques and loads beside their limits;
+//! - [`motors`]: what the motors of a plan's joints draw;
 //! - [`histories`]: momentum and clearances along a plan.
 //!
 //! ```
@@ -28,6 +30,8 @@ pub mod histories;
 pub mod holonomy;
 pub mod hull;
 pub mod impossible;
+pub mod limited_loads;
+pub mod motors;
 pub mod power;
 pub mod zonotope;
 
@@ -35,5 +39,7 @@ pub use abilities::Abilities;
 pub use envelope::{Envelope, Envelopes, envelopes};
 pub use histories::Histories;
 pub use impossible::Impossible;
+pub use limited_loads::limited_loads;
+pub use motors::Motors;
 pub use power::PowerProfile;
 pub use zonotope::Zonotope;

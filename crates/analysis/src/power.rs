@@ -80,7 +80,7 @@ pub struct Consumption {
     pub energy_j: f64,
 }
 
-/// The joints at one point of an interval.
+/// What joints and mount bear at one point of an interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Time since the start; the same for the end of an interval and the start of the next.
@@ -89,11 +89,21 @@ pub struct Instant {
     pub weight_s: f64,
     /// Torque of each joint, N m.
     pub joint_torques_n_m: Vec<f64>,
+    /// Rate of each joint, rad/s.
+    pub joint_rates_rad_s: Vec<f64>,
+    /// Acceleration of each joint, rad/s².
+    pub joint_accelerations_rad_s2: Vec<f64>,
     /// Mechanical power of each joint, W.
     pub joint_powers_w: Vec<f64>,
+    /// Length of the force between base and arm, N.
+    pub mount_force_n: f64,
+    /// Length of the moment between them about the mount, N m.
+    pub mount_moment_n_m: f64,
+    /// Length of the base's angular rate, rad/s.
+    pub base_rate_rad_s: f64,
 }
 
-/// Torques and mechanical power of the joints over a maneuver, five points an interval.
+/// Torques, loads and mechanical power over a maneuver, five points an interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PowerProfile {
     instants: Vec<Instant>,
@@ -164,8 +174,12 @@ impl PowerProfile {
 
     /// What all joints draw over the maneuver.
     pub fn consumption(&self, accounting: Accounting, efficiency: f64) -> Consumption {
-        let drawn_w = self.drawn_w(accounting, efficiency);
-        let energy_j = self.instants.iter().zip(&drawn_w).map(|(i, w)| i.weight_s * w).sum();
+        self.consumption_of(&self.drawn_w(accounting, efficiency))
+    }
+
+    /// Of power drawn at every point (W).
+    pub(crate) fn consumption_of(&self, drawn_w: &[f64]) -> Consumption {
+        let energy_j = self.instants.iter().zip(drawn_w).map(|(i, w)| i.weight_s * w).sum();
         let highest = (0..drawn_w.len()).max_by(|&a, &b| drawn_w[a].total_cmp(&drawn_w[b]));
         let (peak_w, peak_time_s) =
             highest.map_or((f64::NAN, f64::NAN), |i| (drawn_w[i], self.instants[i].time_s));
@@ -216,13 +230,21 @@ fn within(
         }
         let state = State::from_slice(&x)?;
         let rate: &Vector3<f64> = &state.angular_rate;
-        let torques = model.joint_torques(rate, &state.joint_angles, &state.joint_rates, control);
+        let (angles, rates) = (&state.joint_angles, &state.joint_rates);
+        let base = model.base_acceleration(rate, angles, rates, control);
+        let dynamics = model.inverse_dynamics(&base, rate, angles, rates, control);
+        let torques = dynamics.joint_torques;
         let powers = torques.iter().zip(&state.joint_rates).map(|(torque, rate)| torque * rate);
         Some(Instant {
             time_s: if place == 1.0 { end_s } else { start_s + place * length_s },
             weight_s: weight * length_s,
             joint_powers_w: powers.collect(),
             joint_torques_n_m: torques,
+            joint_accelerations_rad_s2: control.clone(),
+            mount_force_n: dynamics.mount.force.norm(),
+            mount_moment_n_m: dynamics.mount.moment.norm(),
+            base_rate_rad_s: rate.norm(),
+            joint_rates_rad_s: state.joint_rates,
         })
     };
     QUADRATURE.into_iter().filter_map(&mut at).collect()

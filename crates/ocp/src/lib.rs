@@ -72,7 +72,7 @@ pub use decision_layout::{DecisionLayout, ShootingDimensions};
 pub use error::OcpError;
 pub use grid::Grid;
 pub use initial_guess::InitialGuess;
-pub use mesh_refinement::{MeshRefinement, close_guess_settings};
+pub use mesh_refinement::{MeshRefinement, close_guess_settings, warm_start_settings};
 pub use multiple_shooting::MultipleShooting;
 pub use ocp_solution::OcpSolution;
 pub use ocp_start::OcpStart;

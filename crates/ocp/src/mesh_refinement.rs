@@ -42,8 +42,9 @@ fn last_settings(settings: &Settings) -> Settings {
     warm_start_settings(settings, tolerance / (barrier_tol_factor + 1.0))
 }
 
-/// Settings for a start with multipliers, at a barrier parameter.
-fn warm_start_settings(settings: &Settings, barrier_parameter: f64) -> Settings {
+/// Settings for a start with multipliers, at a barrier parameter: bounds and multipliers are taken as they
+/// are, and what does not converge soon is given up.
+pub fn warm_start_settings(settings: &Settings, barrier_parameter: f64) -> Settings {
     let ipopt = Options {
         mu_init: barrier_parameter,
         warm_start_bound_push: WARM_PUSH,

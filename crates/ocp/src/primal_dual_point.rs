@@ -1,4 +1,4 @@
-use crate::decision_layout::DecisionLayout;
+use crate::decision_layout::{DecisionLayout, ShootingDimensions};
 use crate::samples::Samples;
 
 /// A primal–dual point of a transcribed problem: what a solve ends at and what the next one can
@@ -25,5 +25,35 @@ impl PrimalDualPoint {
             costates.push(&self.constraints[self.layout.defect(step)]);
         }
         costates
+    }
+
+    /// The number of steps N of its grid.
+    pub fn steps(&self) -> usize {
+        self.layout.dimensions().steps
+    }
+
+    /// What is left of the point after its first `steps` steps: the warm start of the same problem from the
+    /// node reached then. Nothing is interpolated. The free entries of x_0 stay as they were.
+    ///
+    /// # Panics
+    /// No step is left.
+    pub fn after(&self, steps: usize) -> Self {
+        let old = self.layout;
+        assert!(steps < self.steps(), "{steps} steps of {} are all", self.steps());
+        let steps_left = self.steps() - steps;
+        let layout =
+            DecisionLayout::new(ShootingDimensions { steps: steps_left, ..old.dimensions() });
+        let of_variables = |values: &[f64]| {
+            let left = old.control(steps).start;
+            [&values[old.free()], &values[left..]].concat()
+        };
+        let first_row = old.stage(steps).start;
+        Self {
+            layout,
+            z: of_variables(&self.z),
+            constraints: self.constraints[first_row..].to_vec(),
+            lower: of_variables(&self.lower),
+            upper: of_variables(&self.upper),
+        }
     }
 }

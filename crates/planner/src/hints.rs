@@ -121,8 +121,14 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
         let moving =
             nodes.iter().filter(|n| is_fast(n.joint_rates_rad_s[joint], limits.rate_max_rad_s));
         note(joint, "rate", moving.count(), nodes.len());
-        let pushing = intervals.iter().filter(|interval| {
-            interval.joint_torques_n_m[joint].abs() >= (1.0 - NEAR_TORQUE) * limits.torque_max_n_m
+        let drive = &scenario.system().drives[joint];
+        let pushing = intervals.iter().zip(nodes).filter(|(interval, node)| {
+            let torque_n_m = drive.torque(
+                interval.joint_torques_n_m[joint],
+                node.joint_rates_rad_s[joint],
+                interval.joint_accelerations_rad_s2[joint],
+            );
+            torque_n_m.abs() >= (1.0 - NEAR_TORQUE) * limits.torque_max_n_m
         });
         note(joint, "torque", pushing.count(), intervals.len());
         let margin = AT_LIMIT * (limits.angle_max_rad - limits.angle_min_rad);

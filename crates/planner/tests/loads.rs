@@ -146,3 +146,41 @@ fn a_limit_that_is_not_reached_changes_no_plan() {
     let ratio = planned.solution.objective / free.solution.objective;
     assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
 }
+
+/// Friction and the rotor's inertia count in the torque that is limited, and in nothing else.
+#[test]
+fn a_drive_s_own_torque_counts() {
+    let drive = file::Drive {
+        viscous_friction_n_m_s: Some(0.5),
+        rotor_inertia_kg_m2: Some(1e-4),
+        gear_ratio: Some(100.0),
+        ..file::Drive::default()
+    };
+    let with_drives = varied(&shipped("slew_4dof"), |file| {
+        system(file).links.iter_mut().for_each(|link| link.drive = Some(drive.clone()));
+    });
+    let free = plan(&with_drives);
+    assert_eq!(free.trajectory, plan(&shipped("slew_4dof")).trajectory);
+    let torque_n_m = |planned: &Planned, joint: usize| {
+        let (nodes, intervals) = (planned.trajectory.nodes(), planned.trajectory.intervals());
+        let torques = nodes.iter().zip(intervals).map(|(node, interval)| {
+            let (rate, acceleration) =
+                (node.joint_rates_rad_s[joint], interval.joint_accelerations_rad_s2[joint]);
+            (interval.joint_torques_n_m[joint] + 0.5 * rate + acceleration).abs()
+        });
+        torques.fold(0.0, f64::max)
+    };
+    let limits: Vec<f64> = (0..4).map(|joint| 0.9 * torque_n_m(&free, joint).max(0.01)).collect();
+    let scenario = varied(&with_drives, |file| {
+        for (link, limit) in system(file).links.iter_mut().zip(&limits) {
+            link.torque_max_n_m = Some(*limit);
+        }
+    });
+    let planned = plan(&scenario);
+    assert_verified("drives", &planned);
+    for (joint, limit) in limits.iter().enumerate() {
+        let torque_n_m = torque_n_m(&planned, joint);
+        assert!(torque_n_m < 1.01 * limit, "joint {}: {torque_n_m} of {limit} N m", joint + 1);
+    }
+    assert!(planned.solution.objective > free.solution.objective);
+}

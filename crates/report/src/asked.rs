@@ -1,37 +1,55 @@
 //! What a scenario asks for, in words and as an attitude.
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use righting_results::Solution;
 use righting_scenario::file::{Duration, DurationRange, ManeuverType, Scenario};
 
 use crate::number::{drawn, short};
 
 /// The maneuver in one phrase: "slew of 20° about [0.74, 0.02, 0.68] in 30 s".
 pub fn phrase(scenario: &Scenario) -> String {
-    phrase_with(scenario, short)
+    phrase_with(scenario, None, short)
 }
 
 /// [`phrase`] as figures show it.
 pub(crate) fn phrase_drawn(scenario: &Scenario) -> String {
-    phrase_with(scenario, drawn)
+    phrase_with(scenario, None, drawn)
 }
 
-fn phrase_with(scenario: &Scenario, number: fn(f64) -> String) -> String {
+/// The maneuver of a plan: [`phrase`] with the duration that the plan chose where it was free, "in 12.3 s (of
+/// 5 to 60)".
+pub fn planned_phrase(solution: &Solution) -> String {
+    phrase_with(&solution.scenario, solution.duration_s, short)
+}
+
+/// [`planned_phrase`] as figures show it.
+pub(crate) fn planned_phrase_drawn(solution: &Solution) -> String {
+    phrase_with(&solution.scenario, solution.duration_s, drawn)
+}
+
+fn phrase_with(scenario: &Scenario, chosen_s: Option<f64>, number: fn(f64) -> String) -> String {
     let maneuver = &scenario.maneuver;
     let triple = |values: [f64; 3]| format!("[{}]", values.map(number).join(", "));
     let duration = match scenario.horizon.duration_s {
-        Duration::Given(duration_s) => number(duration_s),
-        Duration::Free(DurationRange { min, max }) => format!("{} to {}", number(min), number(max)),
+        Duration::Given(duration_s) => format!("{} s", number(duration_s)),
+        Duration::Free(DurationRange { min, max }) => {
+            let range = format!("{} to {}", number(min), number(max));
+            match chosen_s {
+                Some(chosen_s) => format!("{} s (of {range})", number(chosen_s)),
+                None => format!("{range} s"),
+            }
+        }
     };
     match maneuver.kind {
         ManeuverType::Slew => {
             let (axis, angle_deg) =
                 scenario.slew_axis_and_angle_deg().unwrap_or(([f64::NAN; 3], f64::NAN));
             let (axis, angle) = (triple(axis), number(angle_deg));
-            format!("slew of {angle}° about {axis} in {duration} s")
+            format!("slew of {angle}° about {axis} in {duration}")
         }
         ManeuverType::Detumble => {
             let rate = triple(scenario.initial.angular_rate_deg_s.unwrap_or_default());
-            format!("detumble from {rate} °/s in {duration} s")
+            format!("detumble from {rate} °/s in {duration}")
         }
     }
 }

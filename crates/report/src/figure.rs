@@ -69,7 +69,7 @@ impl Figure {
 
 /// Title and subtitle of a maneuver's figures: what it is, what was asked, whether it is proven.
 pub(crate) fn heading(solution: &Solution) -> (String, String) {
-    let asked = asked::phrase_drawn(&solution.scenario);
+    let asked = asked::planned_phrase_drawn(solution);
     (solution.scenario.name.clone(), format!("{asked}, {}", verdict_in_short(solution)))
 }
 

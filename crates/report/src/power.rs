@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use righting_analysis::PowerProfile;
+use righting_analysis::motors::{Braking, Losses};
 use righting_analysis::power::{Accounting, Instant};
+use righting_analysis::{Motors, PowerProfile};
 use righting_results::Solution;
 use righting_scenario::WheelArray;
 
@@ -23,6 +24,8 @@ const LEAST_POWER_SPAN_W: f64 = 1e-6;
 pub struct PowerComparison<'a> {
     /// Torques and mechanical power of the joints.
     pub profile: &'a PowerProfile,
+    /// What the motors draw, where all are known.
+    pub motors: Option<&'a Motors<'a>>,
     /// Overall efficiency of the joints' actuators, in (0, 1].
     pub efficiency: f64,
     /// Wheels that would do the same.
@@ -40,8 +43,15 @@ fn accounting_phrase(accounting: Accounting) -> &'static str {
 }
 
 /// The figure of joint torques, mechanical power and power drawn over the maneuver, as an SVG
-/// document; the power drawn in every [`Accounting`], beside the steady power of one wheel.
+/// document; the power drawn in every [`Accounting`], and by the motors where they are known, beside the
+/// steady power of one wheel.
 pub fn power_svg(solution: &Solution, comparison: PowerComparison<'_>) -> String {
+    let mut panels = vec![
+        torque_panel(comparison.profile.instants()),
+        mechanical_panel(comparison.profile.instants()),
+        drawn_panel(comparison),
+    ];
+    panels.extend(comparison.motors.map(|motors| motor_panel(motors, comparison.wheels)));
     let instants = comparison.profile.instants();
     let (title, subtitle) = heading(solution);
     let figure = Figure {
@@ -49,7 +59,7 @@ pub fn power_svg(solution: &Solution, comparison: PowerComparison<'_>) -> String
         subtitle,
         places: instants.iter().map(|instant| instant.time_s).collect(),
         panel_size: PANEL_SIZE,
-        panels: vec![torque_panel(instants), mechanical_panel(instants), drawn_panel(comparison)],
+        panels,
         ..Figure::default()
     };
     figure.render()
@@ -84,12 +94,11 @@ fn mechanical_panel(instants: &[Instant]) -> Panel {
 }
 
 fn drawn_panel(comparison: PowerComparison<'_>) -> Panel {
-    let PowerComparison { profile, efficiency, wheels } = comparison;
+    let PowerComparison { profile, efficiency, wheels, .. } = comparison;
     // The later is drawn over the earlier where they agree, the paper's over all.
     let curves = Accounting::ALL.into_iter().rev();
     let curve = |accounting| accounting_curve(accounting, profile.drawn_w(accounting, efficiency));
-    let one_wheel =
-        wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min);
+    let one_wheel = one_wheel_w(wheels);
     Panel {
         heading: format!("Power drawn, \u{3b7} = {}", drawn(efficiency)),
         axis_label: "Power [W]",
@@ -99,6 +108,31 @@ fn drawn_panel(comparison: PowerComparison<'_>) -> Panel {
         least_span: LEAST_POWER_SPAN_W,
         ..Panel::default()
     }
+}
+
+fn motor_panel(motors: &Motors<'_>, wheels: &WheelArray) -> Panel {
+    let one_wheel = one_wheel_w(wheels);
+    let curve = |name: &str, color, braking| {
+        let drawn_w = motors.drawn_w(braking);
+        Curve { name: name.to_owned(), ..Curve::plain(color, drawn_w) }
+    };
+    Panel {
+        heading: "Power drawn by the motors and their drives".to_owned(),
+        axis_label: "Power [W]",
+        note: format!("dashed: one wheel, {} W", drawn(one_wheel)),
+        curves: vec![
+            curve("regen.", style::SERIES[3], Braking::FedBack),
+            curve("no regen.", style::SERIES[2], Braking::Burnt),
+        ],
+        rules: vec![Rule { kind: RuleKind::Reference, value: one_wheel }],
+        least_span: LEAST_POWER_SPAN_W,
+        ..Panel::default()
+    }
+}
+
+/// The steady power of the wheel that takes least, W.
+fn one_wheel_w(wheels: &WheelArray) -> f64 {
+    wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min)
 }
 
 /// The curve of a variant: the same colour and short name in every figure.
@@ -120,14 +154,14 @@ fn joint_curves(instants: &[Instant], of: impl Fn(&Instant) -> &Vec<f64>) -> Vec
 
 /// The comparison as a table for people.
 pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> String {
-    let PowerComparison { profile, efficiency, wheels } = comparison;
+    let PowerComparison { profile, motors, efficiency, wheels } = comparison;
     let mut text = String::new();
     let mut line = |arguments: std::fmt::Arguments<'_>| {
         text.write_fmt(arguments).expect("a string takes all that is written to it");
         text.push('\n');
     };
     let scenario = &solution.scenario;
-    let asked = asked::phrase(scenario);
+    let asked = asked::planned_phrase(solution);
     line(format_args!("{}: {asked}, {}", scenario.name, verdict_in_short(solution)));
     line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "peak [W]", "mean [W]", "energy [J]"));
     let mut row = |name: &str, numbers: [f64; 3]| {
@@ -139,12 +173,38 @@ pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> Stri
         let name = format!("arm, {}", accounting_phrase(accounting));
         row(&name, [used.peak_w, used.mean_w, used.energy_j]);
     }
+    let of_motors = [
+        ("motors, no regeneration", Braking::Burnt),
+        ("motors, with regeneration", Braking::FedBack),
+    ];
+    for (name, braking) in of_motors {
+        if let Some(used) = motors.map(|motors| motors.consumption(braking)) {
+            row(&format!("arm, {name}"), [used.peak_w, used.mean_w, used.energy_j]);
+        }
+    }
     let steady_w = wheels.steady_power_w();
     let name = format!("{} wheels, spinning steadily", wheels.wheels().len());
     row(&name, [steady_w, steady_w, steady_w * profile.duration_s()]);
-    line(format_args!("  at an efficiency of {} of the arm's actuators", short(efficiency)));
-    let torques: Vec<String> = profile.peak_torques_n_m().into_iter().map(short).collect();
-    line(format_args!("  peak joint torques {} N m", torques.join(", ")));
+    let but_motors = if motors.is_some() { ", motors at their own" } else { "" };
+    line(format_args!(
+        "  at an efficiency of {} of the arm's actuators{but_motors}",
+        short(efficiency)
+    ));
+    let list = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(", ");
+    line(format_args!("  peak joint torques {} N m", list(profile.peak_torques_n_m())));
+    if let Some(motors) = motors {
+        let (currents, voltages) = (motors.peak_currents_a(), motors.peak_voltages_v());
+        line(format_args!("  peak currents {} A", list(currents)));
+        line(format_args!("  peak voltages {} V", list(voltages)));
+        let Losses { windings_j, gears_j, friction_j, standing_j } = motors.losses();
+        line(format_args!(
+            "  heat of windings {} J, gears {} J, friction {} J; electronics and brakes {} J",
+            short(windings_j),
+            short(gears_j),
+            short(friction_j),
+            short(standing_j),
+        ));
+    }
     line(format_args!(
         "  work of the joints {} J, change of kinetic energy {} J",
         short(profile.work_j()),

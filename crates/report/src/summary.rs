@@ -67,7 +67,7 @@ pub fn verification_summary(solution: &Solution) -> String {
     let mut text = format!(
         "{}: {}\n{}\n",
         solution.scenario.name,
-        asked::phrase(&solution.scenario),
+        asked::planned_phrase(solution),
         verdict(solution)
     );
     for row in table(&solution.verification.checks) {

@@ -4,6 +4,7 @@
 //! file may contain; [`Scenario`](crate::Scenario) is what it means. A *resolved* scenario is one
 //! of these with its system inline and every default filled in: it stands in `solution.json`.
 
+mod drive;
 mod pointing;
 mod shapes;
 
@@ -12,6 +13,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+pub use drive::Drive;
 pub use pointing::{DirectionTable, Pointing};
 pub use shapes::{Capsule, Cuboid, KeepOut, Shape, Sphere};
 
@@ -486,11 +488,14 @@ pub struct Link {
     /// Largest joint acceleration in magnitude, deg/s².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub acceleration_max_deg_s2: f64,
-    /// Largest torque of the joint's motor in magnitude, N m; none by default. Of a locked joint the torque
-    /// that holds it.
+    /// Largest torque of the joint's drive at the joint in magnitude, friction and rotor included, N m; none
+    /// by default. Of a locked joint the torque that holds it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_max_n_m: Option<f64>,
+    /// Friction, rotor, gear and motor of the joint; by default a drive that adds nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive: Option<Drive>,
     /// Whether the link may be inside the keep-out sphere and the shapes of `base.keep_out`: for one that
     /// starts in any of them, as part of the mount does. It is then not kept away from the base at all.
     #[serde(default)]

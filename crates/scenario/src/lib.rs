@@ -30,6 +30,7 @@
 
 pub mod bodies;
 pub mod collision;
+pub mod drive;
 mod end;
 pub mod error;
 pub mod file;
@@ -60,6 +61,7 @@ mod weights;
 pub mod wheels;
 
 pub use collision::CollisionModel;
+pub use drive::Drive;
 pub use error::Error;
 pub use file_kind::FileKind;
 pub use initial::Initial;

@@ -53,12 +53,14 @@ fn least_torque_n_m(system: &SystemDescription, initial: &Initial, joint: usize)
     let model: &System = &system.model;
     let mut accelerations = vec![0.0; system.joint_count()];
     let torque = |accelerations: &[f64]| {
-        model.joint_torques(
+        let torques = model.joint_torques(
             &initial.angular_rate_rad_s,
             &initial.joint_angles_rad,
             &initial.joint_rates_rad_s,
             accelerations,
-        )[joint]
+        );
+        let rate = initial.joint_rates_rad_s[joint];
+        system.drives[joint].torque(torques[joint], rate, accelerations[joint])
     };
     let coasting = torque(&accelerations);
     let mut reach = 0.0;

@@ -7,6 +7,7 @@ use righting_multibody as multibody;
 use righting_multibody::{Quaternion, System};
 
 use crate::bodies::{KeepOut, Solid, keep_out, solids};
+use crate::drive::Drive;
 use crate::error::Error;
 use crate::file;
 use crate::ignored_pairs::{Named, ignored_pairs};
@@ -48,6 +49,8 @@ pub struct SystemDescription {
     pub ignored_pairs: Vec<[Named; 2]>,
     /// Limits, one a joint.
     pub joint_limits: Vec<JointLimits>,
+    /// Drives, one a joint.
+    pub drives: Vec<Drive>,
     /// What the mount bears, and how fast the base may turn.
     pub load_limits: LoadLimits,
     /// Whether a link may be inside what the base keeps out, such as a part of the mount; one a link.
@@ -105,10 +108,15 @@ impl SystemDescription {
         }
         let mut links = Vec::new();
         let mut joint_limits = Vec::new();
+        let mut drives = Vec::new();
         for (index, row) in system.links.iter().enumerate() {
             let place = links_place.index(index);
             links.push(link(row, &place)?);
             joint_limits.push(JointLimits::from_file(row, &place)?);
+            let drive = row.drive.as_ref();
+            drives.push(drive.map_or(Ok(Drive::default()), |drive| {
+                Drive::from_file(drive, &place.key("drive"))
+            })?);
         }
         let payload = match &system.payload {
             Some(payload) => Some(self::payload(payload, &place.key("payload"))?),
@@ -125,6 +133,7 @@ impl SystemDescription {
             ignored_pairs: ignored_pairs(system, keep_out_radius_m.is_some(), place)?,
             model,
             joint_limits,
+            drives,
             load_limits: LoadLimits::from_file(system, place)?,
             body_exempt: system.links.iter().map(|link| link.body_exempt).collect(),
         })

@@ -4,6 +4,7 @@ use righting_multibody::{ModelError, Units};
 
 use crate::bodies::Solid;
 use crate::collision::{CollisionModel, Other, Pair};
+use crate::drive::Drive;
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::load_limits::LoadLimits;
@@ -52,9 +53,23 @@ impl SystemDescription {
                 .collect(),
             solids: self.solids.iter().map(|solid| solid.in_units(units)).collect(),
             joint_limits: limits.collect(),
+            drives: self.drives.iter().map(|drive| drive.in_units(units)).collect(),
             load_limits: self.load_limits.in_units(units),
             ..self.clone()
         })
+    }
+}
+
+impl Drive {
+    /// Mechanically: what the motor draws stays in W.
+    fn in_units(&self, units: &Units) -> Self {
+        let Units { length_m, mass_kg, time_s } = *units;
+        let inertia_kg_m2 = mass_kg * length_m.powi(2);
+        Self {
+            viscous_friction_n_m_s: self.viscous_friction_n_m_s * time_s / inertia_kg_m2,
+            rotor_inertia_kg_m2: self.rotor_inertia_kg_m2 / inertia_kg_m2,
+            ..*self
+        }
     }
 }
 

@@ -60,6 +60,7 @@ fn link() -> impl Strategy<Value = file::Link> {
                 rate_max_deg_s: 1000.0,
                 acceleration_max_deg_s2: 1000.0,
                 torque_max_n_m: None,
+                drive: None,
                 body_exempt: false,
                 // In its own frame a mass needs both.
                 inertial_frame: frame

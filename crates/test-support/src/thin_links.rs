@@ -19,6 +19,7 @@ pub fn thin_link(mass_kg: f64, a_m: f64, alpha_deg: f64, limits: [f64; 2]) -> Li
         rate_max_deg_s,
         acceleration_max_deg_s2,
         torque_max_n_m: None,
+        drive: None,
         body_exempt: false,
         center_of_mass_m: None,
         inertia_kg_m2: None,

@@ -46,6 +46,11 @@ impl Units {
             link.rate_max_deg_s /= time;
             link.acceleration_max_deg_s2 /= time * time;
             link.torque_max_n_m = link.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
+            if let Some(drive) = &mut link.drive {
+                drive.viscous_friction_n_m_s =
+                    drive.viscous_friction_n_m_s.map(|friction| friction * inertia / time);
+                drive.rotor_inertia_kg_m2 = drive.rotor_inertia_kg_m2.map(|rotor| rotor * inertia);
+            }
             link.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
             scale_inertia(&mut link.inertia_kg_m2);
             link.radius_m = link.radius_m.map(|radius_m| radius_m * length);

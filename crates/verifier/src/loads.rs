@@ -1,5 +1,5 @@
 //! Loads and the base's rate against their limits, at the nodes and between them: torques of the joints'
-//! motors, force and moment at the mount.
+//! drives, force and moment at the mount.
 //!
 //! The motion between two nodes is integrated from the first of them. A step's torques jump where it
 //! begins, so both its ends are looked at with its own accelerations.
@@ -23,15 +23,40 @@ const SHARE: f64 = 0.01;
 pub(super) struct LoadLimits {
     /// One a joint, N m.
     torques_n_m: Vec<Option<f64>>,
+    /// One a joint.
+    drives: Vec<DriveTorque>,
     mount_force_n: Option<f64>,
     mount_moment_n_m: Option<f64>,
     base_rate_rad_s: Option<f64>,
+}
+
+/// What a drive gives beside the torque that moves the arm.
+#[derive(Clone, Copy, Debug)]
+struct DriveTorque {
+    /// N m s.
+    friction: f64,
+    /// Of the rotor, at the joint, kg m².
+    inertia: f64,
+}
+
+impl DriveTorque {
+    fn new(link: &file::Link) -> Self {
+        let drive = link.drive.as_ref();
+        let of = |value: fn(&file::Drive) -> Option<f64>| drive.and_then(value).unwrap_or(0.0);
+        let ratio = drive.and_then(|drive| drive.gear_ratio).unwrap_or(1.0);
+        // The rotor's kinetic energy J (n q̇)² / 2 is that of an inertia n² J at the joint.
+        Self {
+            friction: of(|drive| drive.viscous_friction_n_m_s),
+            inertia: of(|drive| drive.rotor_inertia_kg_m2) * ratio * ratio,
+        }
+    }
 }
 
 impl LoadLimits {
     pub fn new(system: &file::System) -> Self {
         Self {
             torques_n_m: system.links.iter().map(|link| link.torque_max_n_m).collect(),
+            drives: system.links.iter().map(DriveTorque::new).collect(),
             mount_force_n: system.mount.force_max_n,
             mount_moment_n_m: system.mount.moment_max_n_m,
             base_rate_rad_s: system.base.angular_rate_max_deg_s.map(f64::to_radians),
@@ -39,7 +64,7 @@ impl LoadLimits {
     }
 
     fn is_empty(&self) -> bool {
-        let Self { torques_n_m, mount_force_n, mount_moment_n_m, base_rate_rad_s } = self;
+        let Self { torques_n_m, mount_force_n, mount_moment_n_m, base_rate_rad_s, .. } = self;
         let others = [mount_force_n, mount_moment_n_m, base_rate_rad_s];
         torques_n_m.iter().chain(others).all(Option::is_none)
     }
@@ -104,7 +129,11 @@ pub(super) fn check(
             let of_joints = worst.torques.iter_mut().zip(&limits.torques_n_m).zip(&torques);
             for (joint, ((worst, limit), torque)) in of_joints.enumerate() {
                 if let (Some(worst), Some(limit)) = (worst, limit) {
-                    worst.at_most(torque.abs(), *limit, Some(Subject::Joint(joint)), time_s);
+                    let drive = &limits.drives[joint];
+                    let beside =
+                        drive.friction * state.joint_rates[joint] + drive.inertia * control[joint];
+                    let torque_n_m = (torque + beside).abs();
+                    worst.at_most(torque_n_m, *limit, Some(Subject::Joint(joint)), time_s);
                 }
             }
             let others = [

@@ -1,4 +1,4 @@
-//! What joints, mount and base bear within a step: motor torques, force and moment at the mount, and the
+//! What joints, mount and base bear within a step: torques of the drives, force and moment at the mount, and the
 //! base's angular rate.
 //!
 //! Over a step the joints' acceleration is held, so at a time s after its beginning their angles and rates
@@ -18,8 +18,8 @@ use nalgebra::Vector3;
 use righting_multibody::System;
 use righting_ocp::ComponentBounds;
 use righting_scalar::Scalar;
-use righting_scenario::LoadLimits;
 use righting_scenario::scenario::Scenario;
+use righting_scenario::{Drive, LoadLimits};
 
 use super::{Coordinates, sum_of_squares};
 
@@ -29,6 +29,8 @@ pub(crate) struct Loads {
     system: Arc<System>,
     /// Joints whose torque is limited, counted from zero, and the largest.
     torques: Vec<(usize, f64)>,
+    /// One a joint.
+    drives: Vec<Drive>,
     limits: LoadLimits,
 }
 
@@ -39,6 +41,7 @@ impl Loads {
         Self {
             system: Arc::new(system.model.clone()),
             torques: torques.filter(|(_, most)| most.is_finite()).collect(),
+            drives: system.drives.clone(),
             limits: system.load_limits,
         }
     }
@@ -122,9 +125,11 @@ impl Loads {
                 joint_rates,
                 joint_accelerations,
             );
-            let torques = self.torques.iter();
-            shares
-                .extend(torques.map(|&(joint, most)| dynamics.joint_torques[joint] * most.recip()));
+            shares.extend(self.torques.iter().map(|&(joint, most)| {
+                let (rate, acceleration) = (joint_rates[joint], joint_accelerations[joint]);
+                let torque = dynamics.joint_torques[joint];
+                self.drives[joint].torque(torque, rate, acceleration) * most.recip()
+            }));
             shares.extend(square(&dynamics.mount.force, self.limits.mount_force_max_n));
             shares.extend(square(&dynamics.mount.moment, self.limits.mount_moment_max_n_m));
         }

@@ -17,7 +17,7 @@ const MOST_SUBSTEPS: usize = 32;
 const SPIN_ERROR: f64 = 0.1;
 
 /// The Runge–Kutta steps that each step of the asked grid needs for the base's first spin alone.
-pub(super) fn substeps_of_spin(scenario: &Scenario) -> NonZeroUsize {
+pub(crate) fn substeps_of_spin(scenario: &Scenario) -> NonZeroUsize {
     let one = NonZeroUsize::MIN;
     if scenario.solver().is_paper() {
         return one;

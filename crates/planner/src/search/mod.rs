@@ -20,7 +20,7 @@ mod hops;
 mod model;
 mod negative_curvature;
 mod portfolio;
-mod settings;
+pub(crate) mod settings;
 mod stall;
 
 use std::num::NonZeroUsize;
@@ -39,7 +39,9 @@ use righting_scenario::scenario::Scenario;
 use crate::formulation::{Clearances, Cones, Coordinates, Loads, StageLimits};
 use batch::Batch;
 use grids::Ranking;
-use model::Model;
+
+pub(crate) use accuracy::substeps_of_spin;
+pub(crate) use model::Model;
 
 /// How many coarse solutions are carried to the asked grid, at most, until one gets there.
 const MOST_REFINED: usize = 3;

@@ -17,10 +17,10 @@ use crate::search::stall::StallCheck;
 const SAME_STEP: f64 = 1e-9;
 
 /// A form of the problem with its compiled functions.
-pub(super) struct Model {
-    pub(super) coordinates: Coordinates,
+pub(crate) struct Model {
+    pub(crate) coordinates: Coordinates,
     /// x_0.
-    pub(super) initial: Vec<f64>,
+    pub(crate) initial: Vec<f64>,
     /// With one Runge–Kutta step in each step of the grid.
     plain: StageFunctions,
     /// With several, for coarser grids than the asked one, if their steps need them.
@@ -34,7 +34,7 @@ pub(super) struct Model {
 impl Model {
     /// A form, with so many Runge–Kutta steps in a step of the grids of ranking, and limits that are stated
     /// within the steps too.
-    pub(super) fn compile(
+    pub(crate) fn compile(
         scenario: &Scenario,
         formulation: Formulation,
         substeps: NonZeroUsize,
@@ -68,7 +68,7 @@ impl Model {
         }
     }
 
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &self,
         grid: Grid,
         guess: InitialGuess,
@@ -87,6 +87,15 @@ impl Model {
         MultipleShooting::new(functions, grid, &self.initial)
     }
 
+    /// The program of the asked form from another state, on a grid with the asked grid's steps.
+    pub(crate) fn program_from(
+        &self,
+        grid: Grid,
+        initial: &[f64],
+    ) -> Result<MultipleShooting<'_>, OcpError> {
+        MultipleShooting::new(self.asked_functions(), grid, initial)
+    }
+
     /// What coarser grids than the asked one are solved with.
     fn ranking_functions(&self) -> &StageFunctions {
         self.ranking.as_ref().unwrap_or(&self.plain)
@@ -98,7 +107,7 @@ impl Model {
     }
 
     /// From here on, each step of the asked grid is integrated in so many Runge–Kutta steps.
-    pub(super) fn take_substeps(&mut self, substeps: NonZeroUsize) -> Result<(), OcpError> {
+    pub(crate) fn take_substeps(&mut self, substeps: NonZeroUsize) -> Result<(), OcpError> {
         self.asked = Some(self.plain.with_substeps(substeps)?);
         Ok(())
     }

@@ -55,7 +55,7 @@ pub(super) fn intermediate(scenario: &Scenario) -> Settings {
 }
 
 /// Of a solve that ends in a plan.
-pub(super) fn delivered(scenario: &Scenario) -> Settings {
+pub(crate) fn delivered(scenario: &Scenario) -> Settings {
     let plain = plain(scenario);
     Settings {
         ipopt: Options {

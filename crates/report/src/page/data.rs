@@ -88,7 +88,7 @@ impl<'a> PageData<'a> {
         };
         Self {
             name: scenario.name(),
-            asked: asked::phrase(&solution.scenario),
+            asked: asked::planned_phrase(solution),
             description: solution.scenario.description.as_deref(),
             system: &scenario.system().name,
             verdict: Verdict { passed: solution.verification.passed, text: verdict(solution) },

@@ -1,0 +1,157 @@
+//! One plan flown many times.
+
+use std::time::Duration;
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use rayon::prelude::*;
+use righting_planner::planner::PlanError;
+use righting_planner::{Measured, Replanner};
+use righting_results::Trajectory;
+use righting_scenario::Scenario;
+use righting_verifier::model::State;
+
+use crate::end::End;
+use crate::plant::Plant;
+use crate::sensors::Sensors;
+use crate::spreads::Spreads;
+
+/// How a plan is flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How far the plants are from the model.
+    pub spreads: Spreads,
+    /// What is measured.
+    pub sensors: Sensors,
+    /// Time from one replan to the next, s; rounded to whole steps of the plan, at least one.
+    pub period_s: f64,
+    /// A replan that takes longer is missed, and the last plan goes on; none if there is no deadline.
+    pub deadline: Option<Duration>,
+    /// Seed of all draws.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    /// Masses and inertias off by up to 10 %, a replan a second, perfect sensors.
+    fn default() -> Self {
+        Self {
+            spreads: Spreads { masses: 0.1, inertias: 0.1, ..Spreads::default() },
+            sensors: Sensors::default(),
+            period_s: 1.0,
+            deadline: None,
+            seed: 0,
+        }
+    }
+}
+
+/// One plant, flown both ways.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flight {
+    /// Which flight, counted from zero.
+    pub number: usize,
+    /// The end of the plan flown as it is.
+    pub open_loop: End,
+    /// The end with replans.
+    pub replanned: End,
+    /// How long each replan took.
+    pub replans: Vec<Duration>,
+    /// Replans that were missed: not converged, too late, or nothing sensible measured.
+    pub missed: usize,
+}
+
+/// A plan to be flown many times.
+#[derive(Clone, Copy, Debug)]
+pub struct Campaign<'a> {
+    scenario: &'a Scenario,
+    plan: &'a Trajectory,
+    settings: Settings,
+}
+
+impl<'a> Campaign<'a> {
+    /// Of a plan of the scenario.
+    pub fn new(scenario: &'a Scenario, plan: &'a Trajectory, settings: Settings) -> Self {
+        Self { scenario, plan, settings }
+    }
+
+    /// The first `count` flights, on all cores, in their order. Once `is_stopped`, no further one begins.
+    ///
+    /// # Errors
+    /// As [`flight`](Self::flight).
+    pub fn fly(
+        &self,
+        count: usize,
+        is_stopped: &(impl Fn() -> bool + Sync),
+    ) -> Result<Vec<Flight>, PlanError> {
+        let begun = (0..count).into_par_iter().filter(|_| !is_stopped());
+        begun.map(|number| self.flight(number)).collect()
+    }
+
+    /// Flight `number`, counted from zero.
+    ///
+    /// # Errors
+    /// Those of [`Replanner::new`].
+    pub fn flight(&self, number: usize) -> Result<Flight, PlanError> {
+        let mut draws = ChaCha8Rng::seed_from_u64(self.settings.seed);
+        draws.set_stream(number as u64);
+        let system = self.settings.spreads.applied(self.scenario.resolved_system(), &mut draws);
+        let controls: Vec<Vec<f64>> = self
+            .plan
+            .intervals()
+            .iter()
+            .map(|interval| interval.joint_accelerations_rad_s2.clone())
+            .collect();
+        let mut plant = self.plant(&system);
+        for (step, control) in controls.iter().enumerate() {
+            plant.advance(control, self.step_s(step));
+        }
+        let open_loop = End::of(self.scenario, &plant.state());
+
+        let mut flight =
+            Flight { number, open_loop, replanned: open_loop, replans: Vec::new(), missed: 0 };
+        let mut plant = self.plant(&system);
+        self.fly_replanned(&mut plant, controls, &mut draws, &mut flight)?;
+        flight.replanned = End::of(self.scenario, &plant.state());
+        Ok(flight)
+    }
+
+    fn fly_replanned(
+        &self,
+        plant: &mut Plant,
+        mut controls: Vec<Vec<f64>>,
+        draws: &mut ChaCha8Rng,
+        flight: &mut Flight,
+    ) -> Result<(), PlanError> {
+        let mut replanner = Replanner::new(self.scenario, self.plan)?;
+        let step_s = self.plan.end().time_s / controls.len() as f64;
+        let every = ((self.settings.period_s / step_s).round() as usize).max(1);
+        for step in 0..controls.len() {
+            if step > 0 && step % every == 0 {
+                let measured = self.settings.sensors.measure(&plant.state(), draws);
+                let measured = Measured {
+                    attitude: measured.attitude,
+                    joint_angles_rad: &measured.joint_angles_rad,
+                    joint_rates_rad_s: &measured.joint_rates_rad_s,
+                };
+                // What was measured is refused where it is not finite: that replan is missed too.
+                match replanner.replan(step, &measured, self.settings.deadline) {
+                    Ok(Some(replan)) => {
+                        flight.replans.push(replan.time);
+                        controls.splice(step.., replan.accelerations_rad_s2);
+                    }
+                    Ok(None) | Err(_) => flight.missed += 1,
+                }
+            }
+            plant.advance(&controls[step], self.step_s(step));
+        }
+        Ok(())
+    }
+
+    fn plant(&self, system: &righting_scenario::file::System) -> Plant {
+        Plant::new(system, &State::of_node(self.plan.start()))
+    }
+
+    fn step_s(&self, step: usize) -> f64 {
+        let nodes = self.plan.nodes();
+        nodes[step + 1].time_s - nodes[step].time_s
+    }
+}

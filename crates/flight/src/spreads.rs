@@ -1,0 +1,54 @@
+//! How far a plant is from the model that it was planned with.
+
+use rand::RngExt;
+use rand::rngs::ChaCha8Rng;
+use righting_scenario::file;
+
+/// The largest differences from the model; each number is drawn evenly between them, either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spreads {
+    /// Of every mass, as a share of it. The inertia of a body that has none of its own goes with its mass.
+    pub masses: f64,
+    /// Of the inertias that are given, as a share of them.
+    pub inertias: f64,
+    /// Of every center of mass that is given, along each axis, m.
+    pub centers_m: f64,
+    /// Of the place of the mount, along each axis, m.
+    pub mount_m: f64,
+}
+
+impl Spreads {
+    /// A system that differs by no more than this.
+    pub(crate) fn applied(&self, system: &file::System, draws: &mut ChaCha8Rng) -> file::System {
+        let mut plant = system.clone();
+        let mut share = |most: f64| 1.0 + most * draws.random_range(-1.0..=1.0);
+        let mut scaled = |mass_kg: &mut f64, inertia: &mut Option<[[f64; 3]; 3]>| {
+            *mass_kg *= share(self.masses);
+            let factor = share(self.inertias);
+            inertia.iter_mut().flatten().flatten().for_each(|entry| *entry *= factor);
+        };
+        let base = &mut plant.base;
+        // Of a cube, so that its inertia can differ by itself.
+        if let (Some(side_m), None) = (base.cube_side_m, base.inertia_kg_m2) {
+            let moment = base.mass_kg * side_m.powi(2) / 6.0;
+            base.inertia_kg_m2 = Some([[moment, 0.0, 0.0], [0.0, moment, 0.0], [0.0, 0.0, moment]]);
+        }
+        scaled(&mut base.mass_kg, &mut base.inertia_kg_m2);
+        for link in &mut plant.links {
+            scaled(&mut link.mass_kg, &mut link.inertia_kg_m2);
+        }
+        if let Some(payload) = &mut plant.payload {
+            scaled(&mut payload.mass_kg, &mut payload.inertia_kg_m2);
+        }
+        let mut moved = |place: &mut [f64; 3], most: f64| {
+            place.iter_mut().for_each(|entry| *entry += most * draws.random_range(-1.0..=1.0));
+        };
+        for link in &mut plant.links {
+            if let Some(center) = &mut link.center_of_mass_m {
+                moved(center, self.centers_m);
+            }
+        }
+        moved(&mut plant.mount.position_m, self.mount_m);
+        plant
+    }
+}

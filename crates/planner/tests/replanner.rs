@@ -1,0 +1,150 @@
+//! A maneuver planned anew on its way: from where it was planned to be, and from elsewhere.
+
+use righting_multibody::Quaternion;
+use righting_ocp::Control;
+use righting_planner::{Measured, Planned, Planner, Replan, Replanner};
+use righting_results::{Node, Trajectory};
+use righting_scenario::{Maneuver, Scenario};
+use righting_test_support::{shipped, varied};
+use righting_verifier::DormandPrince;
+use righting_verifier::model::{Model, Motion, State};
+
+fn plan(scenario: &Scenario) -> Planned {
+    Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
+}
+
+fn replanned(
+    replanner: &mut Replanner,
+    step: usize,
+    node: &Node,
+    attitude: Quaternion<f64>,
+) -> Replan {
+    let measured = Measured {
+        attitude,
+        joint_angles_rad: &node.joint_angles_rad,
+        joint_rates_rad_s: &node.joint_rates_rad_s,
+    };
+    replanner.replan(step, &measured, None).unwrap().expect("a replan that converges")
+}
+
+/// The state after the steps of a replan, by the verifier's model.
+fn flown(
+    scenario: &Scenario,
+    start: &Node,
+    attitude: Quaternion<f64>,
+    replan: &Replan,
+) -> Vec<f64> {
+    let model = Model::new(scenario.resolved_system());
+    let mut motion = Motion::new(&model);
+    let mut x = State::of_node(&Node { attitude: attitude.to_array(), ..start.clone() }).to_vec();
+    // The rates that go with no momentum depend on the posture alone.
+    let mut integrator = DormandPrince::new(x.len());
+    for control in &replan.accelerations_rad_s2 {
+        let step_s = scenario.horizon().step_s();
+        assert!(integrator.advance(&mut x, step_s, |x, rate| {
+            model.state_derivative(x, control, &mut motion, rate);
+        }));
+    }
+    x
+}
+
+fn attitude(x: &[f64]) -> Quaternion<f64> {
+    let coords = State::from_slice(x).attitude.coords;
+    Quaternion::from_array([coords.w, coords.x, coords.y, coords.z]).normalized()
+}
+
+fn turned(attitude: [f64; 4], by_deg: f64) -> Quaternion<f64> {
+    let half = 0.5 * by_deg.to_radians();
+    let turn = Quaternion::from_array([half.cos(), 0.0, half.sin(), 0.0]);
+    Quaternion::from_array(attitude).product(&turn).normalized()
+}
+
+/// Where everything is as planned, the rest of the plan is the plan.
+#[test]
+fn on_its_way_a_plan_stays_what_it_is() {
+    for name in ["slew_2dof", "slew_4dof"] {
+        let scenario = shipped(name);
+        let plan: Trajectory = plan(&scenario).trajectory;
+        let mut replanner = Replanner::new(&scenario, &plan).unwrap();
+        let most = plan
+            .intervals()
+            .iter()
+            .flat_map(|interval| &interval.joint_accelerations_rad_s2)
+            .fold(0.0_f64, |most, u| most.max(u.abs()));
+        for step in [20, 200, 400] {
+            let node = &plan.nodes()[step];
+            let attitude = Quaternion::from_array(node.attitude);
+            let replan = replanned(&mut replanner, step, node, attitude);
+            assert_eq!(replan.accelerations_rad_s2.len(), 600 - step);
+            let planned = &plan.intervals()[step..];
+            let rows = replan.accelerations_rad_s2.iter().zip(planned);
+            let off = rows
+                .flat_map(|(row, planned)| row.iter().zip(&planned.joint_accelerations_rad_s2))
+                .fold(0.0_f64, |off, (new, old)| off.max((new - old).abs()));
+            assert!(off < 2e-3 * most, "{name} from step {step}: {off} of {most} rad/s²");
+        }
+    }
+}
+
+/// A detumble's optimum is flat: the rest of it leaves the rate that was planned, by another model.
+#[test]
+fn the_rest_of_a_detumble_takes_out_as_much() {
+    let scenario = shipped("detumble_4dof");
+    let plan = plan(&scenario).trajectory;
+    let mut replanner = Replanner::new(&scenario, &plan).unwrap();
+    let norm = |rate: [f64; 3]| rate.iter().map(|w| w * w).sum::<f64>().sqrt();
+    let planned = norm(plan.end().angular_rate_rad_s);
+    for step in [20, 200, 400] {
+        let node = &plan.nodes()[step];
+        let here = Quaternion::from_array(node.attitude);
+        let replan = replanned(&mut replanner, step, node, here);
+        let end = flown(&scenario, node, here, &replan);
+        let left = State::from_slice(&end).angular_rate.norm();
+        assert!((left / planned - 1.0).abs() < 1e-4, "from step {step}: {left}, {planned} rad/s");
+    }
+}
+
+/// Half a degree off, the rest of a slew still ends in its target, by another model.
+#[test]
+fn a_slew_that_is_off_comes_back_to_its_target() {
+    for name in ["slew_2dof", "slew_4dof", "slew_canadarm2_table"] {
+        let scenario = shipped(name);
+        let Maneuver::Slew(slew) = scenario.maneuver() else { unreachable!("a slew") };
+        let plan = plan(&scenario).trajectory;
+        let mut replanner = Replanner::new(&scenario, &plan).unwrap();
+        for step in [20, 300] {
+            let node = &plan.nodes()[step];
+            let off = turned(node.attitude, 0.5);
+            let replan = replanned(&mut replanner, step, node, off);
+            let end = flown(&scenario, node, off, &replan);
+            let miss_deg = attitude(&end).angle_to(&slew.target).to_degrees();
+            println!("{name} from step {step}: {miss_deg:.5}° in {} iterations", replan.iterations);
+            assert!(miss_deg < 0.02, "{name} from step {step}: {miss_deg}°");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_measurement_is_refused_and_changes_nothing() {
+    let scenario = shipped("slew_2dof");
+    let plan = plan(&scenario).trajectory;
+    let mut replanner = Replanner::new(&scenario, &plan).unwrap();
+    let node = &plan.nodes()[100];
+    let lost = Measured {
+        attitude: Quaternion::from_array([f64::NAN; 4]),
+        joint_angles_rad: &node.joint_angles_rad,
+        joint_rates_rad_s: &node.joint_rates_rad_s,
+    };
+    assert!(replanner.replan(100, &lost, None).is_err());
+    let attitude = Quaternion::from_array(node.attitude);
+    replanned(&mut replanner, 100, node, attitude);
+}
+
+#[test]
+fn a_plan_of_another_grid_is_refused() {
+    let scenario = shipped("slew_2dof");
+    let plan = plan(&scenario).trajectory;
+    let finer = varied(&scenario, |file| file.horizon.steps = 300.0);
+    let refused = Replanner::new(&finer, &plan).err().unwrap().to_string();
+    assert_eq!(refused, "steps of the plan: found 600, expected 300");
+}

@@ -1,0 +1,100 @@
+//! `flights.svg` and its table: how flights end, with replans and without.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use righting_flight::{Distribution, Flight, Latency, Summary};
+use righting_scenario::file::{ManeuverType, Scenario};
+
+use crate::asked;
+use crate::axis::Range;
+use crate::chart::{Chart, Labels};
+use crate::number::{drawn, short};
+use crate::shares::{sorted, stairs};
+use crate::style;
+use crate::svg::Stroke;
+
+/// Many flights of one maneuver.
+#[derive(Clone, Copy, Debug)]
+pub struct FlightsFigure<'a> {
+    /// The maneuver.
+    pub scenario: &'a Scenario,
+    /// The flights.
+    pub flights: &'a [Flight],
+}
+
+/// The figure of how flights end, as an SVG document: the share of them (percent) that end within an angle from
+/// the target, or of a detumble with a rate, with replans and open loop. None if none came to its end.
+pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
+    let FlightsFigure { scenario, flights } = figure;
+    let is_slew = scenario.maneuver.kind == ManeuverType::Slew;
+    let value = |end: &righting_flight::End| match is_slew {
+        true => end.error_rad.to_degrees(),
+        false => end.rate_rad_s.to_degrees(),
+    };
+    let replanned = sorted(flights.iter().map(|flight| value(&flight.replanned)));
+    let open_loop = sorted(flights.iter().map(|flight| value(&flight.open_loop)));
+    let most = replanned.last()?.max(*open_loop.last()?);
+    let (x, unit) = match is_slew {
+        true => ("Attitude error at the end [deg]", "\u{b0}"),
+        false => ("Angular rate at the end [deg/s]", " \u{b0}/s"),
+    };
+    let of =
+        |values: &[f64]| drawn(Distribution::of(values.iter().copied()).p95.unwrap_or(f64::NAN));
+    let subtitle = format!(
+        "{}: 95 % of {} flights within {}{unit} with replans (solid), {}{unit} open loop (dashed)",
+        asked::phrase_drawn(scenario),
+        flights.len(),
+        of(&replanned),
+        of(&open_loop),
+    );
+    let labels = Labels { title: &scenario.name, subtitle: &subtitle, x, y: "Flights within [%]" };
+    let range = Range { low: 0.0, high: most }.padded(1e-9);
+    let mut chart =
+        Chart::new(&labels, Range { low: 0.0, ..range }, Range { low: 0.0, high: 104.0 });
+    let dash = style::LIMIT_DASH;
+    let width = style::CURVE_WIDTH;
+    chart.curve(&stairs(&open_loop), Stroke { color: style::FAINT_INK, width, dash });
+    chart.curve(&stairs(&replanned), Stroke { color: style::Z, width, dash: "" });
+    Some(chart.svg.finish())
+}
+
+/// How flights end, as a table for people.
+pub fn flights_table(scenario: &Scenario, summary: &Summary, files: &[PathBuf]) -> String {
+    let mut text = String::new();
+    let mut line = |arguments: std::fmt::Arguments<'_>| {
+        text.write_fmt(arguments).expect("a string takes all that is written to it");
+        text.push('\n');
+    };
+    let Summary { flights, completed, missed_replans, .. } = summary;
+    line(format_args!("{}: {}", scenario.name, asked::phrase(scenario)));
+    line(format_args!(
+        "  {flights} flights, {completed} completed, {missed_replans} replans missed"
+    ));
+    line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "median", "95 %", "most"));
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), short);
+    let mut row = |name: &str, values: [Option<f64>; 3]| {
+        let [median, p95, most] = values.map(number);
+        line(format_args!("  {name:<34}{median:>12}{p95:>12}{most:>12}"));
+    };
+    let values = |of: Distribution| [of.median, of.p95, of.max];
+    if scenario.maneuver.kind == ManeuverType::Slew {
+        row("attitude error, replanned [deg]", values(summary.replanned.final_error_deg));
+        row("attitude error, open loop [deg]", values(summary.open_loop.final_error_deg));
+    }
+    row("angular rate, replanned [deg/s]", values(summary.replanned.final_rate_deg_s));
+    row("angular rate, open loop [deg/s]", values(summary.open_loop.final_rate_deg_s));
+    let Latency { median, p999, max } = summary.replan_ms;
+    line(format_args!(
+        "  a replan takes {} ms (median), {} ms (99.9 %), {} ms (most)",
+        number(median),
+        number(p999),
+        number(max)
+    ));
+    line(format_args!(""));
+    line(format_args!("Files"));
+    for file in files {
+        line(format_args!("  {}", file.display()));
+    }
+    text
+}

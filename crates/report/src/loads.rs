@@ -1,0 +1,68 @@
+//! `loads.svg`: what the joints' drives and the mount bear, where that is limited.
+
+use righting_analysis::limited_loads::{LimitedLoad, LoadHistory};
+use righting_analysis::{PowerProfile, limited_loads};
+use righting_results::Solution;
+use righting_scenario::SystemDescription;
+
+use crate::figure::{Figure, heading};
+use crate::number::drawn;
+use crate::panel::{Curve, Panel, Rule, RuleKind};
+use crate::style;
+
+const PANEL_SIZE: [f64; 2] = [620.0, 110.0];
+/// Below this share of its limit a load counts as constant.
+const LEAST_SHARE: f64 = 1e-9;
+
+/// The figure of every load that has a limit, as an SVG document: torques of the drives, force and moment at
+/// the mount, and the base's angular rate; none where nothing is limited.
+pub fn loads_svg(
+    solution: &Solution,
+    system: &SystemDescription,
+    profile: &PowerProfile,
+) -> Option<String> {
+    let histories = limited_loads(system, profile);
+    if histories.is_empty() {
+        return None;
+    }
+    let (title, subtitle) = heading(solution);
+    let figure = Figure {
+        title,
+        subtitle,
+        places: profile.instants().iter().map(|instant| instant.time_s).collect(),
+        panel_size: PANEL_SIZE,
+        panels: histories.into_iter().map(panel).collect(),
+        ..Figure::default()
+    };
+    Some(figure.render())
+}
+
+fn panel(history: LoadHistory) -> Panel {
+    let peak = history.peak();
+    let LoadHistory { load, most, values } = history;
+    let (name, axis_label, scale) = match load {
+        LimitedLoad::JointTorque(joint) => {
+            (format!("Torque of joint {}", joint + 1), "Torque [N m]", 1.0)
+        }
+        LimitedLoad::MountForce => ("Force at the mount".to_owned(), "Force [N]", 1.0),
+        LimitedLoad::MountMoment => ("Moment at the mount".to_owned(), "Moment [N m]", 1.0),
+        LimitedLoad::BaseRate => {
+            ("Angular rate of the base".to_owned(), "Rate [deg/s]", 1_f64.to_degrees())
+        }
+    };
+    let limit = |value| Rule { kind: RuleKind::Limit, value: scale * value };
+    let is_signed = matches!(load, LimitedLoad::JointTorque(_));
+    let lower = is_signed.then(|| limit(-most));
+    Panel {
+        heading: name,
+        axis_label,
+        note: format!("peak {} of {}", drawn(scale * peak), drawn(scale * most)),
+        curves: vec![Curve::plain(
+            if is_signed { style::Z } else { style::MAGNITUDE },
+            values.into_iter().map(|value| scale * value).collect(),
+        )],
+        rules: lower.into_iter().chain([limit(most)]).collect(),
+        least_span: LEAST_SHARE * scale * most,
+        ..Panel::default()
+    }
+}
