@@ -107,7 +107,23 @@ impl InitialGuesses<'_> {
     /// Fills in the states that follow after the first `steps` steps, each integrated in so many
     /// Runge–Kutta steps.
     pub(crate) fn simulate(&self, guess: &mut InitialGuess, steps: usize, substeps: usize) {
-        let step_s = self.scenario.horizon().duration_s / (self.steps * substeps) as f64;
+        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
+        self.simulate_steps(guess, steps, step_s, substeps);
+    }
+
+    /// The motion that controls make in steps of a given length, each integrated in so many Runge–Kutta steps.
+    pub(crate) fn simulated_in(
+        &self,
+        step_s: f64,
+        mut guess: InitialGuess,
+        substeps: usize,
+    ) -> InitialGuess {
+        self.simulate_steps(&mut guess, 0, step_s, substeps);
+        guess
+    }
+
+    fn simulate_steps(&self, guess: &mut InitialGuess, steps: usize, step_s: f64, substeps: usize) {
+        let step_s = step_s / substeps as f64;
         let mut x = guess.states.row(steps).to_vec();
         let mut point = x.clone();
         let mut method = RungeKutta4::new(x.len());

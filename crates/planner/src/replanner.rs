@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State};
 use righting_ocp::{
-    Control, Grid, InitialGuess, LinearSolverChoice, OcpError, OcpStart, Optimizer,
-    PrimalDualPoint, Settings, close_guess_settings, warm_start_settings,
+    Control, Grid, InitialGuess, Iteration, LinearSolverChoice, OcpError, OcpStart, Optimizer,
+    PrimalDualPoint, Samples, Settings, close_guess_settings, warm_start_settings,
 };
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
@@ -120,15 +120,18 @@ impl Replanner {
         let steps = self.grid.steps() - node;
         let start = self.point.after(self.point.steps() - steps);
         let grid = Grid::new(self.grid.step_s() * steps as f64, steps)?;
-        let settings = self.warm_settings();
         let mut program = self.model.program_from(grid, &self.state(node, measured))?;
-        let solution =
-            program.solve(&OcpStart::Warm(start.clone()), &settings, |_| {
-                match deadline.is_some_and(|deadline| started.elapsed() > deadline) {
-                    true => Control::Stop,
-                    false => Control::Continue,
-                }
-            })?;
+        let is_late = || deadline.is_some_and(|deadline| started.elapsed() > deadline);
+        let watch = |_: &Iteration| if is_late() { Control::Stop } else { Control::Continue };
+        let mut solution =
+            program.solve(&OcpStart::Warm(start.clone()), &self.warm_settings(), watch)?;
+        if !solution.status.is_success() && !is_late() {
+            // Where multipliers mislead, the motion that the last controls make is a start without any.
+            let (_, controls) = program.trajectory(&start);
+            let guess = self.simulated(program.full_initial_state(), controls);
+            let settings = close_guess_settings(&self.settings);
+            solution = program.solve(&OcpStart::Guess(guess), &settings, watch)?;
+        }
         let is_new = solution.status.is_success();
         self.point = if is_new { solution.point.clone() } else { start };
         Ok(is_new.then(|| Replan {
@@ -139,6 +142,18 @@ impl Replanner {
             iterations: solution.iterations(),
             time: started.elapsed(),
         }))
+    }
+
+    /// The motion from a state under controls.
+    fn simulated(&self, from: &[f64], controls: Samples) -> InitialGuess {
+        let steps = controls.len();
+        let guess = InitialGuess { states: Samples::repeated(from, steps + 1), controls };
+        let substeps = self.model.asked_functions().substeps().get();
+        self.model.initial_guesses(&self.scenario, steps).simulated_in(
+            self.grid.step_s(),
+            guess,
+            substeps,
+        )
     }
 
     fn warm_settings(&self) -> Settings {

@@ -54,7 +54,7 @@ impl Model {
         })
     }
 
-    pub(super) fn initial_guesses<'a>(
+    pub(crate) fn initial_guesses<'a>(
         &'a self,
         scenario: &'a Scenario,
         steps: usize,
@@ -102,7 +102,7 @@ impl Model {
     }
 
     /// What the asked grid is solved with.
-    pub(super) fn asked_functions(&self) -> &StageFunctions {
+    pub(crate) fn asked_functions(&self) -> &StageFunctions {
         self.asked.as_ref().unwrap_or(&self.plain)
     }
 
