@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// An earlier result folder of the same arm (another angle, axis, duration, grid or mass) to
-    /// start from too.
+    /// start from too. From a plan of the very same problem it goes on alone.
     #[arg(long, value_name = "DIR")]
     warm_start: Option<PathBuf>,
     /// A folder of such result folders: the nearest maneuver of the same arm and type is a start

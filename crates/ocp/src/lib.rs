@@ -86,7 +86,8 @@ pub use stage_functions::StageFunctions;
 
 pub use num_dual::DualNum;
 pub use righting_nlp::{
-    Control, DerivativeErrors, Iteration, NlpScaling, Options, ReducedHessian, Status, Timing,
+    Control, DerivativeErrors, Iteration, MultiplierInitialization, NlpScaling, Options,
+    ReducedHessian, Status, Timing,
 };
 pub use righting_scalar::Scalar;
 pub use righting_symbolic::{Backend, Expr};

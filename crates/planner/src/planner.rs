@@ -11,12 +11,13 @@ use righting_results::IterationRecord;
 use righting_results::trajectory::Trajectory;
 use righting_scenario::Scenario;
 use righting_scenario::error::ShapeError;
+use righting_verifier::verify;
 
 use crate::library::PlanLibrary;
 use crate::planned::{Ending, Planned};
 use crate::remedies::remedies;
 use crate::scaling::Scaling;
-use crate::search::Search;
+use crate::search::{Earlier, Search};
 
 /// How often a maneuver that costs far more than estimated is measured anew.
 const MOST_MEASURINGS: usize = 3;
@@ -159,10 +160,12 @@ impl<'a> Planner<'a> {
             if is_late { Control::Stop } else { observer(record) }
         };
         let (mut measured, mut scaling) = Scaling::applied(scenario)?;
+        let is_of_this = earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
         let mut search = |measured: &Scenario, scaling: &Scaling| {
+            let earlier = earlier.as_ref().map(|plan| Earlier { plan, is_of_this });
             let mut watched = |record: &IterationRecord| watched(&scaling.record(record));
-            Search::new(measured, self.threads, earlier.as_ref(), &mut watched)?.run()
+            Search::new(measured, self.threads, earlier, &mut watched)?.run()
         };
         let mut found = search(&measured, &scaling)?;
         for _ in 0..MOST_MEASURINGS {
@@ -211,6 +214,15 @@ fn require_same_joints(
         }
         _ => Ok(()),
     }
+}
+
+/// Whether a motion is a plan of this very scenario: on its grid, from its start, and verified.
+fn is_plan_of(scenario: &Scenario, earlier: &Trajectory) -> bool {
+    let horizon = scenario.horizon();
+    let is_on_grid = earlier.steps() == horizon.steps
+        && earlier.end().time_s == horizon.time_s(horizon.steps)
+        && scenario.free_duration().is_none();
+    is_on_grid && verify(scenario, earlier).passed
 }
 
 /// Why there is no plan at all. A plan that did not converge is one, with its status.

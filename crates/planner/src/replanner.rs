@@ -96,8 +96,8 @@ impl Replanner {
         };
         let grid = Grid::new(scenario.horizon().duration_s, scenario.horizon().steps)?;
         let guess = along(&model, &scaling.trajectory(plan));
-        let solution =
-            model.solve(grid, guess, &close_guess_settings(&settings), |_| Control::Continue)?;
+        let from_plan = settings::from_own_plan(settings.clone());
+        let solution = model.solve(grid, guess, &from_plan, |_| Control::Continue)?;
         let point = solution.point;
         Ok(Self { scaling, scenario, model, settings, grid, point })
     }

@@ -71,13 +71,21 @@ pub(crate) struct Search<'a> {
     pool: Option<ThreadPool>,
     on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     /// An earlier plan to start from too.
-    earlier: Option<&'a Trajectory>,
+    earlier: Option<Earlier<'a>>,
     /// What ranking the initial guesses led to, the best first.
     coarse: Vec<OcpSolution>,
     notes: Vec<String>,
     attempts: Vec<Attempt>,
     trace: Duration,
     stop: AtomicBool,
+}
+
+/// An earlier plan that a search starts from.
+#[derive(Clone, Copy)]
+pub(crate) struct Earlier<'a> {
+    pub(crate) plan: &'a Trajectory,
+    /// Whether it is a plan of the very problem: then nothing else is tried where its solve succeeds.
+    pub(crate) is_of_this: bool,
 }
 
 /// What a search ends with.
@@ -114,7 +122,7 @@ impl<'a> Search<'a> {
     pub(crate) fn new(
         scenario: &'a Scenario,
         threads: NonZeroUsize,
-        earlier: Option<&'a Trajectory>,
+        earlier: Option<Earlier<'a>>,
         on_iteration: &'a mut dyn FnMut(&IterationRecord) -> Control,
     ) -> Result<Self, OcpError> {
         let started = Instant::now();
@@ -151,12 +159,15 @@ impl<'a> Search<'a> {
     /// Makes the solves.
     pub(crate) fn run(mut self) -> Result<Found, OcpError> {
         let started = Instant::now();
-        self.coarse = self.coarse_solutions()?;
+        let continued = self.continued()?;
+        if continued.is_none() {
+            self.coarse = self.coarse_solutions()?;
+        }
         let guess = started.elapsed();
 
         let started = Instant::now();
         let is_part = self.ranking.asked_steps < self.grid.steps();
-        let mut found = None;
+        let mut found = continued;
         for place in 0..self.coarse.len().min(MOST_REFINED) {
             let solution = self.coarse[place].clone();
             found = if is_part { self.held_after(solution)? } else { self.refined(solution)? };
@@ -165,7 +176,7 @@ impl<'a> Search<'a> {
             }
         }
         let (solution, is_minimum) = match found {
-            Some(solution) if is_part => (solution, true),
+            Some(solution) if is_part && !self.coarse.is_empty() => (solution, true),
             Some(solution) => self.finished(solution)?,
             None => {
                 let solution = self.solved_from_constant_guess()?;
@@ -183,6 +194,18 @@ impl<'a> Search<'a> {
             guess,
             solve: started.elapsed(),
         })
+    }
+
+    /// The asked grid solved from a plan of this very problem, if there is one and that succeeds.
+    fn continued(&mut self) -> Result<Option<OcpSolution>, OcpError> {
+        let Some(Earlier { plan, is_of_this: true }) = self.earlier else { return Ok(None) };
+        let guesses = self.model.initial_guesses(self.scenario, self.grid.steps());
+        let guess = guesses.along_trajectory(plan);
+        let settings = settings::from_own_plan(settings::delivered(self.scenario));
+        let on_iteration = stoppable(self.on_iteration, &self.stop);
+        let mut solution = self.model.solve(self.grid, guess, &settings, on_iteration)?;
+        self.attempts.append(&mut solution.attempts);
+        Ok(solution.status.is_success().then_some(solution))
     }
 
     /// A solution on the asked grid, integrated well, within its limits between the nodes and, if there is
@@ -214,7 +237,7 @@ impl<'a> Search<'a> {
         }
         let mut first: Vec<(InitialGuess, Settings)> = first.into_iter().map(start).collect();
         if let Some(earlier) = self.earlier {
-            first.push((guesses.along_trajectory(earlier), close_guess_settings(&cold)));
+            first.push((guesses.along_trajectory(earlier.plan), close_guess_settings(&cold)));
         }
         let mut solutions = self.converged(grid, first)?;
         let agreed = portfolio::agree(&solutions);

@@ -1,6 +1,8 @@
 //! How the optimizer is set for each kind of solve.
 
-use righting_ocp::{LinearSolverChoice, NlpScaling, Optimizer, Options, Settings};
+use righting_ocp::{
+    LinearSolverChoice, MultiplierInitialization, NlpScaling, Optimizer, Options, Settings,
+};
 use righting_scenario::file;
 use righting_scenario::scenario::{Maneuver, Scenario};
 
@@ -19,6 +21,12 @@ const COARSE_HALVINGS: i32 = 5;
 const WATCHDOG_TRIGGER: u32 = 3;
 /// And so many of them (by itself 3): a step out of the valley takes some to come back to its floor.
 const WATCHDOG_TRIALS: u32 = 8;
+
+/// Multipliers of constraints that are estimated from a plan of the very problem may be as large: those of a hard
+/// end are.
+const LARGEST_MULTIPLIER: f64 = 1e12;
+/// From its bounds such a plan is pushed no farther than this.
+const SMALLEST_PUSH: f64 = 1e-13;
 
 /// Of a ranked guess on the coarse grid.
 pub(super) fn coarse(scenario: &Scenario) -> Settings {
@@ -70,6 +78,25 @@ pub(crate) fn delivered(scenario: &Scenario) -> Settings {
             ..plain.ipopt
         },
         ..plain
+    }
+}
+
+/// Of a solve from a plan of the very problem, without its multipliers. Those of the bounds are what the plan leaves
+/// of the bound tells: the barrier parameter that it ended with over the multiplier.
+pub(crate) fn from_own_plan(delivered: Settings) -> Settings {
+    let Options { tolerance, barrier_tol_factor, .. } = delivered.ipopt;
+    Settings {
+        ipopt: Options {
+            mu_init: tolerance / (barrier_tol_factor + 1.0),
+            bound_mult_init_method: MultiplierInitialization::MuBased,
+            constr_mult_init_max: LARGEST_MULTIPLIER,
+            bound_push: SMALLEST_PUSH,
+            bound_frac: SMALLEST_PUSH,
+            slack_bound_push: SMALLEST_PUSH,
+            slack_bound_frac: SMALLEST_PUSH,
+            ..delivered.ipopt
+        },
+        ..delivered
     }
 }
 
