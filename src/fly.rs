@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use clap::Args;
-use righting_flight::{Campaign, Flight, Sensors, Settings, Spreads, Summary};
-use righting_ocp::Control;
+use clap::{Args, ValueEnum};
+use righting_flight::{Campaign, Control, Flight, Sensors, Settings, Spreads, Summary};
 use righting_planner::{Planned, Planner};
 use righting_report::{FlightsFigure, flights_svg, flights_table};
 use righting_results::{IterationRecord, SOLUTION_FILE, Trajectory};
@@ -47,6 +46,9 @@ pub struct Arguments {
     /// Seed of all random draws: the same seed, the same flights.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
+    /// What is done about it.
+    #[arg(long, value_enum, default_value_t = Mode::Replan)]
+    mode: Mode,
     /// Time from one replan to the next, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = period)]
     period: f64,
@@ -81,6 +83,18 @@ pub struct Arguments {
     pub json: bool,
 }
 
+/// What is done about a spacecraft that is not as planned.
+#[derive(Clone, Copy, Serialize, JsonSchema, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+enum Mode {
+    /// Nothing: the plan is flown as it is.
+    OpenLoop,
+    /// The plan's own gains correct every step, for slews.
+    Feedback,
+    /// The rest of the maneuver is planned anew, time and again.
+    Replan,
+}
+
 /// What fly.json holds and `--json` prints.
 #[derive(Serialize, JsonSchema)]
 #[schemars(title = "Righting flights")]
@@ -93,6 +107,8 @@ struct Printed<'a> {
     scenario_sha256: String,
     /// Seed of all draws.
     seed: u64,
+    /// What was done about it.
+    mode: Mode,
     /// Time from one replan to the next, s.
     period_s: f64,
     #[serde(flatten)]
@@ -126,19 +142,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         scenario: scenario.name(),
         scenario_sha256: scenario.resolved().sha256(),
         seed: arguments.seed,
+        mode: arguments.mode,
         period_s: arguments.period,
         summary: &summary,
     };
     let json = output::to_json(&printed)?;
     let mut files = vec![folder.write(TABLE_FILE, csv(&flights).as_bytes())?];
     files.push(folder.write(JSON_FILE, json.as_bytes())?);
-    let figure = FlightsFigure { scenario: scenario.resolved(), flights: &flights };
+    let figure = FlightsFigure {
+        scenario: scenario.resolved(),
+        flights: &flights,
+        control: settings.control,
+    };
     if let Some(figure) = flights_svg(figure) {
         files.extend(writer.write(folder.path(), FIGURE_FILE, &figure)?);
     }
     match arguments.json {
         true => output::print(&json),
-        false => output::print(&flights_table(scenario.resolved(), &summary, &files)),
+        false => {
+            output::print(&flights_table(scenario.resolved(), settings.control, &summary, &files))
+        }
     }
 }
 
@@ -155,7 +178,11 @@ fn scenario_and_plan(input: &Path) -> Result<(Scenario, Trajectory, Interrupt), 
     let progress = Progress::start();
     let mut on_iteration = |record: &IterationRecord| {
         progress.show(record);
-        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+        if interrupt.is_asked() {
+            righting_ocp::Control::Stop
+        } else {
+            righting_ocp::Control::Continue
+        }
     };
     let mut planner = Planner::new().program(build::VERSION);
     let Planned { solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;
@@ -176,6 +203,11 @@ fn settings(arguments: &Arguments) -> Settings {
             joint_angle_rad: arguments.joint_noise_deg.to_radians(),
             joint_rate_rad_s: arguments.joint_rate_noise_deg_s.to_radians(),
         },
+        control: match arguments.mode {
+            Mode::OpenLoop => Control::OpenLoop,
+            Mode::Feedback => Control::Feedback,
+            Mode::Replan => Control::Replan,
+        },
         period_s: arguments.period,
         deadline: arguments.deadline_ms,
         seed: arguments.seed,
@@ -189,12 +221,12 @@ fn csv(flights: &[Flight]) -> String {
          open_loop_rate_deg_s,replans,missed_replans,slowest_replan_ms\n",
     );
     for flight in flights {
-        let Flight { number, open_loop, replanned, replans, missed } = flight;
+        let Flight { number, open_loop, flown, replans, missed } = flight;
         let slowest_ms = replans.iter().max().map_or(f64::NAN, |time| 1e3 * time.as_secs_f64());
         let cells = [
-            replanned.error_rad.to_degrees(),
-            replanned.rate_rad_s.to_degrees(),
-            replanned.joint_rate_rad_s.to_degrees(),
+            flown.error_rad.to_degrees(),
+            flown.rate_rad_s.to_degrees(),
+            flown.joint_rate_rad_s.to_degrees(),
             open_loop.error_rad.to_degrees(),
             open_loop.rate_rad_s.to_degrees(),
         ];

@@ -6,7 +6,7 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
 use righting_planner::planner::PlanError;
-use righting_planner::{Measured, Replanner};
+use righting_planner::{Feedback, Replanner};
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
 use righting_verifier::model::State;
@@ -16,6 +16,17 @@ use crate::plant::Plant;
 use crate::sensors::Sensors;
 use crate::spreads::Spreads;
 
+/// What is done about a spacecraft that is not as planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Nothing: the plan is flown as it is.
+    OpenLoop,
+    /// Its gains correct every step from what is measured then.
+    Feedback,
+    /// The rest is planned anew every [`period`](Settings::period_s).
+    Replan,
+}
+
 /// How a plan is flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -23,6 +34,8 @@ pub struct Settings {
     pub spreads: Spreads,
     /// What is measured.
     pub sensors: Sensors,
+    /// What is done about it.
+    pub control: Control,
     /// Time from one replan to the next, s; rounded to whole steps of the plan, at least one.
     pub period_s: f64,
     /// A replan that takes longer is missed, and the last plan goes on; none if there is no deadline.
@@ -37,6 +50,7 @@ impl Default for Settings {
         Self {
             spreads: Spreads { masses: 0.1, inertias: 0.1, ..Spreads::default() },
             sensors: Sensors::default(),
+            control: Control::Replan,
             period_s: 1.0,
             deadline: None,
             seed: 0,
@@ -51,8 +65,8 @@ pub struct Flight {
     pub number: usize,
     /// The end of the plan flown as it is.
     pub open_loop: End,
-    /// The end with replans.
-    pub replanned: End,
+    /// The end with what is done about it.
+    pub flown: End,
     /// How long each replan took.
     pub replans: Vec<Duration>,
     /// Replans that were missed: not converged, too late, or nothing sensible measured.
@@ -107,11 +121,29 @@ impl<'a> Campaign<'a> {
         let open_loop = End::of(self.scenario, &plant.state());
 
         let mut flight =
-            Flight { number, open_loop, replanned: open_loop, replans: Vec::new(), missed: 0 };
+            Flight { number, open_loop, flown: open_loop, replans: Vec::new(), missed: 0 };
         let mut plant = self.plant(&system);
-        self.fly_replanned(&mut plant, controls, &mut draws, &mut flight)?;
-        flight.replanned = End::of(self.scenario, &plant.state());
+        match self.settings.control {
+            Control::OpenLoop => return Ok(flight),
+            Control::Feedback => self.fly_with_feedback(&mut plant, &mut draws)?,
+            Control::Replan => self.fly_replanned(&mut plant, controls, &mut draws, &mut flight)?,
+        }
+        flight.flown = End::of(self.scenario, &plant.state());
         Ok(flight)
+    }
+
+    fn fly_with_feedback(
+        &self,
+        plant: &mut Plant,
+        draws: &mut ChaCha8Rng,
+    ) -> Result<(), PlanError> {
+        let feedback = Feedback::new(self.scenario, self.plan)?;
+        for step in 0..self.plan.steps() {
+            let measured = self.settings.sensors.measure(&plant.state(), draws);
+            let control = feedback.accelerations(step, &measured.as_measured());
+            plant.advance(&control, self.step_s(step));
+        }
+        Ok(())
     }
 
     fn fly_replanned(
@@ -127,13 +159,8 @@ impl<'a> Campaign<'a> {
         for step in 0..controls.len() {
             if step > 0 && step % every == 0 {
                 let measured = self.settings.sensors.measure(&plant.state(), draws);
-                let measured = Measured {
-                    attitude: measured.attitude,
-                    joint_angles_rad: &measured.joint_angles_rad,
-                    joint_rates_rad_s: &measured.joint_rates_rad_s,
-                };
                 // What was measured is refused where it is not finite: that replan is missed too.
-                match replanner.replan(step, &measured, self.settings.deadline) {
+                match replanner.replan(step, &measured.as_measured(), self.settings.deadline) {
                     Ok(Some(replan)) => {
                         flight.replans.push(replan.time);
                         controls.splice(step.., replan.accelerations_rad_s2);

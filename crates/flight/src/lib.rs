@@ -3,8 +3,8 @@
 //! A [`Campaign`] is one plan flown many times. Each flight draws its own [`plant`](Plant): the verifier's model
 //! of the same spacecraft with other masses, inertias and centers of mass ([`Spreads`]). The joints follow the
 //! accelerations that they are told; the base turns as the plant's momentum has it. A flight is flown open
-//! loop, and again with the rest of the maneuver planned anew every [`period`](Settings::period_s) from what
-//! noisy [`Sensors`] measure.
+//! loop, and again with what is done about it ([`Control`]): the plan's gains correct every step, or the rest of the
+//! maneuver is planned anew every [`period`](Settings::period_s), from what noisy [`Sensors`] measure.
 //!
 //! Flight i draws from stream i of one generator (ChaCha8), so it is the same whatever the number of flights
 //! and cores; only the times that replans take differ.
@@ -21,7 +21,7 @@
 //! let planned = Planner::new().plan(&scenario, &mut |_| Control::Continue)?;
 //! let settings = Settings { period_s: 5.0, ..Settings::default() };
 //! let flight = Campaign::new(&scenario, &planned.trajectory, settings).flight(0)?;
-//! assert!(flight.replanned.error_rad < flight.open_loop.error_rad);
+//! assert!(flight.flown.error_rad < flight.open_loop.error_rad);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
@@ -33,7 +33,7 @@ mod sensors;
 mod spreads;
 mod summary;
 
-pub use campaign::{Campaign, Flight, Settings};
+pub use campaign::{Campaign, Control, Flight, Settings};
 pub use end::End;
 pub use plant::Plant;
 pub use sensors::Sensors;

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use righting_multibody::Quaternion;
+use righting_planner::Measured;
 use righting_verifier::model::State;
 
 /// Standard deviations of what is measured, each measurement by itself.
@@ -23,6 +24,16 @@ pub(crate) struct Measurement {
     pub attitude: Quaternion<f64>,
     pub joint_angles_rad: Vec<f64>,
     pub joint_rates_rad_s: Vec<f64>,
+}
+
+impl Measurement {
+    pub(crate) fn as_measured(&self) -> Measured<'_> {
+        Measured {
+            attitude: self.attitude,
+            joint_angles_rad: &self.joint_angles_rad,
+            joint_rates_rad_s: &self.joint_rates_rad_s,
+        }
+    }
 }
 
 impl Sensors {

@@ -48,9 +48,9 @@ pub struct Summary {
     pub completed: usize,
     /// Replans that were missed, in all.
     pub missed_replans: usize,
-    /// With replans.
+    /// With what is done about it.
     #[serde(flatten)]
-    pub replanned: Ends,
+    pub flown: Ends,
     /// Wall time of the replans.
     pub replan_ms: Latency,
     /// The same plants flown open loop.
@@ -61,14 +61,14 @@ impl Summary {
     /// Of flights in any order.
     pub fn of(flights: &[Flight]) -> Self {
         let is_completed =
-            |flight: &&Flight| flight.open_loop.is_finite() && flight.replanned.is_finite();
+            |flight: &&Flight| flight.open_loop.is_finite() && flight.flown.is_finite();
         let replans = flights.iter().flat_map(|flight| &flight.replans);
         let times_ms = sorted(replans.map(|time: &Duration| 1e3 * time.as_secs_f64()));
         Self {
             flights: flights.len(),
             completed: flights.iter().filter(is_completed).count(),
             missed_replans: flights.iter().map(|flight| flight.missed).sum(),
-            replanned: Ends::of(flights.iter().map(|flight| flight.replanned)),
+            flown: Ends::of(flights.iter().map(|flight| flight.flown)),
             replan_ms: Latency {
                 median: quantile(&times_ms, 0.5),
                 p999: quantile(&times_ms, 0.999),

@@ -1,7 +1,6 @@
 //! Flights with plants that are as planned, and with others.
 
-use righting_flight::{Campaign, Flight, Sensors, Settings, Spreads, Summary};
-use righting_ocp::Control;
+use righting_flight::{Campaign, Control, Flight, Sensors, Settings, Spreads, Summary};
 use righting_planner::Planner;
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
@@ -9,7 +8,7 @@ use righting_test_support::shipped;
 
 fn planned(name: &str) -> (Scenario, Trajectory) {
     let scenario = shipped(name);
-    let planned = Planner::new().plan(&scenario, &mut |_| Control::Continue).unwrap();
+    let planned = Planner::new().plan(&scenario, &mut |_| righting_ocp::Control::Continue).unwrap();
     assert!(planned.solution.verification.passed);
     (scenario, planned.trajectory)
 }
@@ -21,6 +20,7 @@ fn fly(scenario: &Scenario, plan: &Trajectory, settings: Settings, count: usize)
 const AS_PLANNED: Settings = Settings {
     spreads: Spreads { masses: 0.0, inertias: 0.0, centers_m: 0.0, mount_m: 0.0 },
     sensors: Sensors { attitude_rad: 0.0, joint_angle_rad: 0.0, joint_rate_rad_s: 0.0 },
+    control: Control::Replan,
     period_s: 5.0,
     deadline: None,
     seed: 0,
@@ -31,7 +31,7 @@ fn a_plant_as_planned_ends_as_planned_with_replans_and_without() {
     let (scenario, plan) = planned("slew_4dof");
     let flight = &fly(&scenario, &plan, AS_PLANNED, 1)[0];
     assert!(flight.open_loop.error_rad < 1e-4, "{:?}", flight.open_loop);
-    assert!(flight.replanned.error_rad < 1e-4, "{:?}", flight.replanned);
+    assert!(flight.flown.error_rad < 1e-4, "{:?}", flight.flown);
     assert_eq!((flight.replans.len(), flight.missed), (5, 0));
 }
 
@@ -41,7 +41,7 @@ fn replans_bring_other_plants_to_the_target() {
     let settings = Settings { period_s: 1.0, ..Settings::default() };
     let summary = Summary::of(&fly(&scenario, &plan, settings, 8));
     let [replanned, open_loop] =
-        [summary.replanned, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
+        [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
     println!("{summary:?}");
     assert_eq!((summary.completed, summary.missed_replans), (8, 0));
     assert!(open_loop > 0.1, "{open_loop}° open loop shows nothing");
@@ -58,7 +58,7 @@ fn a_flight_depends_on_its_seed_and_number_alone() {
         ..Settings::default()
     };
     let ends = |flights: Vec<Flight>| -> Vec<_> {
-        flights.into_iter().map(|flight| (flight.open_loop, flight.replanned)).collect()
+        flights.into_iter().map(|flight| (flight.open_loop, flight.flown)).collect()
     };
     let six = ends(fly(&scenario, &plan, noisy, 6));
     assert_eq!(six[..3], ends(fly(&scenario, &plan, noisy, 3)));
@@ -78,5 +78,24 @@ fn missed_replans_leave_the_plan_as_it_is() {
     };
     let flight = &fly(&scenario, &plan, hurried, 1)[0];
     assert_eq!((flight.replans.len(), flight.missed), (0, 5));
-    assert_eq!(flight.replanned, flight.open_loop);
+    assert_eq!(flight.flown, flight.open_loop);
+}
+
+#[test]
+fn feedback_alone_brings_the_median_down_fivefold() {
+    let (scenario, plan) = planned("slew_4dof");
+    let settings = Settings { control: Control::Feedback, ..Settings::default() };
+    let summary = Summary::of(&fly(&scenario, &plan, settings, 12));
+    let [flown, open_loop] =
+        [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
+    println!("{summary:?}");
+    assert!(flown < 0.2 * open_loop, "{flown}° of {open_loop}°");
+}
+
+#[test]
+fn feedback_needs_a_target() {
+    let (scenario, plan) = planned("detumble_2dof");
+    let settings = Settings { control: Control::Feedback, ..Settings::default() };
+    let refused = Campaign::new(&scenario, &plan, settings).flight(0).unwrap_err().to_string();
+    assert_eq!(refused, "feedback is for slews, this is a detumble");
 }

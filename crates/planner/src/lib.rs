@@ -31,6 +31,7 @@
 #![forbid(unsafe_code)]
 
 mod between_nodes;
+pub mod feedback;
 mod formulation;
 mod hints;
 mod initial_guess;
@@ -46,6 +47,7 @@ pub mod sparsity;
 mod spin;
 mod symmetry;
 
+pub use feedback::Feedback;
 pub use formulation::FormulatedManeuver;
 pub use library::PlanLibrary;
 pub use planned::Planned;

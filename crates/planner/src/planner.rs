@@ -203,7 +203,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-fn require_same_joints(
+pub(crate) fn require_same_joints(
     scenario: &Scenario,
     earlier: Option<&Trajectory>,
 ) -> Result<(), ShapeError> {
@@ -238,6 +238,9 @@ pub enum PlanError {
     /// The parts of the trajectory do not fit together.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// Feedback holds a base to its target: a detumble has none.
+    #[error("feedback is for slews, this is a detumble")]
+    NoFeedback,
     /// No motion of the arm makes the maneuver.
     #[error(transparent)]
     Impossible(#[from] Impossible),

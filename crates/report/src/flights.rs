@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_flight::{Distribution, Flight, Latency, Summary};
+use righting_flight::{Control, Distribution, Flight, Latency, Summary};
 use righting_scenario::file::{ManeuverType, Scenario};
 
 use crate::asked;
@@ -21,20 +21,32 @@ pub struct FlightsFigure<'a> {
     pub scenario: &'a Scenario,
     /// The flights.
     pub flights: &'a [Flight],
+    /// What was done about their being off.
+    pub control: Control,
+}
+
+/// What was done, as a reader calls it.
+fn phrase(control: Control) -> &'static str {
+    match control {
+        Control::OpenLoop => "open loop",
+        Control::Feedback => "with feedback",
+        Control::Replan => "replanned",
+    }
 }
 
 /// The figure of how flights end, as an SVG document: the share of them (percent) that end within an angle from
-/// the target, or of a detumble with a rate, with replans and open loop. None if none came to its end.
+/// the target, or of a detumble with a rate, with what is done about it and open loop. None if none came to its end.
 pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
-    let FlightsFigure { scenario, flights } = figure;
+    let FlightsFigure { scenario, flights, control } = figure;
+    let how = phrase(control);
     let is_slew = scenario.maneuver.kind == ManeuverType::Slew;
     let value = |end: &righting_flight::End| match is_slew {
         true => end.error_rad.to_degrees(),
         false => end.rate_rad_s.to_degrees(),
     };
-    let replanned = sorted(flights.iter().map(|flight| value(&flight.replanned)));
+    let flown = sorted(flights.iter().map(|flight| value(&flight.flown)));
     let open_loop = sorted(flights.iter().map(|flight| value(&flight.open_loop)));
-    let most = replanned.last()?.max(*open_loop.last()?);
+    let most = flown.last()?.max(*open_loop.last()?);
     let (x, unit) = match is_slew {
         true => ("Attitude error at the end [deg]", "\u{b0}"),
         false => ("Angular rate at the end [deg/s]", " \u{b0}/s"),
@@ -42,10 +54,10 @@ pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
     let of =
         |values: &[f64]| drawn(Distribution::of(values.iter().copied()).p95.unwrap_or(f64::NAN));
     let subtitle = format!(
-        "{}: 95 % of {} flights within {}{unit} with replans (solid), {}{unit} open loop (dashed)",
+        "{}: 95 % of {} flights within {}{unit} {how} (solid), {}{unit} open loop (dashed)",
         asked::phrase_drawn(scenario),
         flights.len(),
-        of(&replanned),
+        of(&flown),
         of(&open_loop),
     );
     let labels = Labels { title: &scenario.name, subtitle: &subtitle, x, y: "Flights within [%]" };
@@ -55,12 +67,18 @@ pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
     let dash = style::LIMIT_DASH;
     let width = style::CURVE_WIDTH;
     chart.curve(&stairs(&open_loop), Stroke { color: style::FAINT_INK, width, dash });
-    chart.curve(&stairs(&replanned), Stroke { color: style::Z, width, dash: "" });
+    chart.curve(&stairs(&flown), Stroke { color: style::Z, width, dash: "" });
     Some(chart.svg.finish())
 }
 
 /// How flights end, as a table for people.
-pub fn flights_table(scenario: &Scenario, summary: &Summary, files: &[PathBuf]) -> String {
+pub fn flights_table(
+    scenario: &Scenario,
+    control: Control,
+    summary: &Summary,
+    files: &[PathBuf],
+) -> String {
+    let how = phrase(control);
     let mut text = String::new();
     let mut line = |arguments: std::fmt::Arguments<'_>| {
         text.write_fmt(arguments).expect("a string takes all that is written to it");
@@ -68,9 +86,11 @@ pub fn flights_table(scenario: &Scenario, summary: &Summary, files: &[PathBuf]) 
     };
     let Summary { flights, completed, missed_replans, .. } = summary;
     line(format_args!("{}: {}", scenario.name, asked::phrase(scenario)));
-    line(format_args!(
-        "  {flights} flights, {completed} completed, {missed_replans} replans missed"
-    ));
+    let missed = match control {
+        Control::Replan => format!(", {missed_replans} replans missed"),
+        Control::OpenLoop | Control::Feedback => String::new(),
+    };
+    line(format_args!("  {flights} flights, {completed} completed{missed}"));
     line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "median", "95 %", "most"));
     let number = |value: Option<f64>| value.map_or("-".to_owned(), short);
     let mut row = |name: &str, values: [Option<f64>; 3]| {
@@ -79,18 +99,17 @@ pub fn flights_table(scenario: &Scenario, summary: &Summary, files: &[PathBuf]) 
     };
     let values = |of: Distribution| [of.median, of.p95, of.max];
     if scenario.maneuver.kind == ManeuverType::Slew {
-        row("attitude error, replanned [deg]", values(summary.replanned.final_error_deg));
+        row(&format!("attitude error, {how} [deg]"), values(summary.flown.final_error_deg));
         row("attitude error, open loop [deg]", values(summary.open_loop.final_error_deg));
     }
-    row("angular rate, replanned [deg/s]", values(summary.replanned.final_rate_deg_s));
+    row(&format!("angular rate, {how} [deg/s]"), values(summary.flown.final_rate_deg_s));
     row("angular rate, open loop [deg/s]", values(summary.open_loop.final_rate_deg_s));
-    let Latency { median, p999, max } = summary.replan_ms;
-    line(format_args!(
-        "  a replan takes {} ms (median), {} ms (99.9 %), {} ms (most)",
-        number(median),
-        number(p999),
-        number(max)
-    ));
+    if let Latency { median: Some(median), p999: Some(p999), max: Some(max) } = summary.replan_ms {
+        let [median, p999, max] = [median, p999, max].map(short);
+        line(format_args!(
+            "  a replan takes {median} ms (median), {p999} ms (99.9 %), {max} ms (most)"
+        ));
+    }
     line(format_args!(""));
     line(format_args!("Files"));
     for file in files {
