@@ -112,7 +112,7 @@ fn assert_consistent(scenario: &Scenario, planned: &Planned) {
     let table = &planned.trajectory;
     assert!(table.has_jerks());
     let limits = &scenario.system().joint_limits;
-    for joint in 0..table.joints() {
+    for (joint, limits) in limits.iter().enumerate() {
         assert_eq!(table.joint_accelerations_at(0)[joint], 0.0);
         assert!(table.joint_accelerations_at(table.steps())[joint].abs() < 1e-6);
         for k in 0..table.steps() {
@@ -121,7 +121,7 @@ fn assert_consistent(scenario: &Scenario, planned: &Planned) {
             let [u, next] = [k, k + 1].map(|node| table.joint_accelerations_at(node)[joint]);
             let jerk = table.intervals()[k].joint_jerk_rad_s3(joint);
             assert!(((next - u) / step_s - jerk).abs() < 1e-6, "joint {joint}, step {k}");
-            assert!(jerk.abs() <= limits[joint].jerk_max_rad_s3 * (1.0 + 1e-6));
+            assert!(jerk.abs() <= limits.jerk_max_rad_s3 * (1.0 + 1e-6));
             let gained = after.joint_rates_rad_s[joint] - before.joint_rates_rad_s[joint];
             assert!((gained / step_s - 0.5 * (u + next)).abs() < 1e-9, "joint {joint}, step {k}");
             let turned = after.joint_angles_rad[joint] - before.joint_angles_rad[joint];
