@@ -132,7 +132,7 @@ fn diagnose() -> Diagnosis {
 fn stage_solver_calls() -> Result<usize, OcpError> {
     const STEPS: usize = 10;
     let problem = ControlProblem::new(2, 1, |x, u| vec![x[1], u[0]])
-        .running_cost(|_, u| u[0] * u[0])
+        .running_cost(|_, u, _| u[0] * u[0])
         .terminal_constraints(ComponentBounds::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
     let functions = StageFunctions::compile(&problem)?;
     let mut program = MultipleShooting::new(&functions, Grid::new(1.0, STEPS)?, &[0.0, 0.0])?;

@@ -132,6 +132,7 @@ impl From<PlanError> for Failure {
     fn from(error: PlanError) -> Self {
         match error {
             PlanError::Impossible(reason) => Self::Impossible(reason),
+            PlanError::NotReplanned(what) => Self::Usage(what),
             error => Self::NotPlanned(error),
         }
     }

@@ -214,14 +214,16 @@ fn within(
     interval: &ControlInterval,
     [start_s, end_s]: [f64; 2],
 ) -> Vec<Instant> {
-    let control = &interval.joint_accelerations_rad_s2;
     let length_s = end_s - start_s;
     let mut reached = 0.0;
     let mut x = node.state().to_vec();
     let mut at = |(place, weight): (f64, f64)| {
         if place > reached {
-            let followed = integrator.advance(&mut x, (place - reached) * length_s, |x, rate| {
-                rate.copy_from_slice(&model.state_derivative(x, control));
+            let before_s = reached * length_s;
+            let duration_s = (place - reached) * length_s;
+            let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
+                let control = interval.joint_accelerations_after(before_s + after_s);
+                rate.copy_from_slice(&model.state_derivative(x, &control));
             });
             if !followed {
                 x.fill(f64::NAN);
@@ -230,9 +232,10 @@ fn within(
         }
         let state = State::from_slice(&x)?;
         let rate: &Vector3<f64> = &state.angular_rate;
+        let control = interval.joint_accelerations_after(place * length_s);
         let (angles, rates) = (&state.joint_angles, &state.joint_rates);
-        let base = model.base_acceleration(rate, angles, rates, control);
-        let dynamics = model.inverse_dynamics(&base, rate, angles, rates, control);
+        let base = model.base_acceleration(rate, angles, rates, &control);
+        let dynamics = model.inverse_dynamics(&base, rate, angles, rates, &control);
         let torques = dynamics.joint_torques;
         let powers = torques.iter().zip(&state.joint_rates).map(|(torque, rate)| torque * rate);
         Some(Instant {
@@ -240,7 +243,7 @@ fn within(
             weight_s: weight * length_s,
             joint_powers_w: powers.collect(),
             joint_torques_n_m: torques,
-            joint_accelerations_rad_s2: control.clone(),
+            joint_accelerations_rad_s2: control,
             mount_force_n: dynamics.mount.force.norm(),
             mount_moment_n_m: dynamics.mount.moment.norm(),
             base_rate_rad_s: rate.norm(),

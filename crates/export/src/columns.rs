@@ -20,8 +20,9 @@ pub(crate) struct Columns {
 /// | `q_wxyz` | N + 1, 4 | attitude, body → inertial, scalar first |
 /// | `w_rad_s` | N + 1, 3 | angular rate, body axes |
 /// | `q_rad`, `dq_rad_s` | N + 1, j | joint angles and rates |
-/// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and, at the first node, torques of an interval |
-pub(crate) fn groups(trajectory: &Trajectory) -> [Columns; 10] {
+/// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and torques at the first node of an interval |
+/// | `j_rad_s3` | N, j | joint jerks of an interval, where the plan has them |
+pub(crate) fn groups(trajectory: &Trajectory) -> Vec<Columns> {
     let nodes = trajectory.nodes();
     let intervals = trajectory.intervals();
     let joints = trajectory.joints();
@@ -37,7 +38,7 @@ pub(crate) fn groups(trajectory: &Trajectory) -> [Columns; 10] {
         width: Some(joints),
         values: intervals.iter().flat_map(row).collect(),
     };
-    [
+    let mut groups = vec![
         of_nodes("t_s", None, &|node| vec![node.time_s]),
         of_nodes("r_m", Some(3), &|node| node.position_m.to_vec()),
         of_nodes("q_wxyz", Some(4), &|node| node.attitude.to_vec()),
@@ -48,5 +49,9 @@ pub(crate) fn groups(trajectory: &Trajectory) -> [Columns; 10] {
         of_intervals("u_rad_s2", &|interval| interval.joint_accelerations_rad_s2.clone()),
         of_intervals("tau_n_m", &|interval| interval.joint_torques_n_m.clone()),
         of_nodes("power_w", None, &|node| vec![node.power_w]),
-    ]
+    ];
+    if trajectory.has_jerks() {
+        groups.push(of_intervals("j_rad_s3", &|interval| interval.joint_jerks_rad_s3.clone()));
+    }
+    groups
 }

@@ -14,8 +14,8 @@ const NANOSECONDS: f64 = 1e9;
 /// `trajectory_msgs/msg/JointTrajectory`: angles, rates, accelerations and torques of the joints that
 /// turn, one point a node; SI units and radians. Locked joints are not among them.
 ///
-/// Accelerations and torques are those of the step that begins at the point, and at the last point
-/// those of the step that ends there.
+/// Accelerations and torques are those with which the step begins that begins at the point, and at the last
+/// point those with which the step ends that ends there: the same where accelerations are continuous.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointTrajectory {
     header: Header,
@@ -58,21 +58,20 @@ impl JointTrajectory {
         let turning: Vec<usize> = (0..arm.hinges.len()).filter(is_turning).collect();
         let pick = |values: &[f64]| turning.iter().map(|index| values[*index]).collect();
         let point = |(k, node): (usize, &Node)| {
-            let interval = &trajectory.intervals()[k.min(trajectory.steps() - 1)];
-            let accelerations = &interval.joint_accelerations_rad_s2;
-            let torques = match k < trajectory.steps() {
-                true => interval.joint_torques_n_m.clone(),
-                false => system.model.joint_torques(
+            let accelerations = trajectory.joint_accelerations_at(k);
+            let torques = match trajectory.intervals().get(k) {
+                Some(interval) => interval.joint_torques_n_m.clone(),
+                None => system.model.joint_torques(
                     &node.angular_rate_rad_s.into(),
                     &node.joint_angles_rad,
                     &node.joint_rates_rad_s,
-                    accelerations,
+                    &accelerations,
                 ),
             };
             Point {
                 positions: pick(&node.joint_angles_rad),
                 velocities: pick(&node.joint_rates_rad_s),
-                accelerations: pick(accelerations),
+                accelerations: pick(&accelerations),
                 effort: pick(&torques),
                 time_from_start: Duration::of(node.time_s - trajectory.start().time_s),
             }

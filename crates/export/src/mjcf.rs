@@ -51,6 +51,10 @@ pub(crate) fn model(system: &SystemDescription, arm: &Arm, trajectory: &Trajecto
         custom.push(of_joints("rate_max_rad_s", |limits| limits.rate_max_rad_s));
         let of = |limits: &JointLimits| limits.acceleration_max_rad_s2;
         custom.push(of_joints("acceleration_max_rad_s2", of));
+        if turning().any(|hinge| hinge.limits.jerk_max_rad_s3.is_finite()) {
+            let of = |limits: &JointLimits| limits.jerk_max_rad_s3.min(UNLIMITED);
+            custom.push(of_joints("jerk_max_rad_s3", of));
+        }
     }
     let keys = Element::new("keyframe")
         .holding(key("start", arm, trajectory.start()))

@@ -18,7 +18,8 @@ use crate::columns::{Columns, groups};
 /// | `q_wxyz` | N + 1, 4 | attitude, body → inertial, scalar first |
 /// | `w_rad_s` | N + 1, 3 | angular rate, body axes |
 /// | `q_rad`, `dq_rad_s` | N + 1, j | joint angles and rates |
-/// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and, at the first node, torques of an interval |
+/// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and torques at the first node of an interval |
+/// | `j_rad_s3` | N, j | joint jerks of an interval, where the plan has them |
 ///
 /// # Errors
 /// [`ExportError::Archive`] for more data than an archive without its 64-bit extension holds.

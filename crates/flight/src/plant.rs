@@ -40,7 +40,7 @@ impl Plant {
     /// There is not one acceleration a joint.
     pub fn advance(&mut self, accelerations: &[f64], duration_s: f64) {
         let Self { model, motion, integrator, x } = self;
-        let followed = integrator.advance(x, duration_s, |x, rate| {
+        let followed = integrator.advance(x, duration_s, |_, x, rate| {
             model.state_derivative(x, accelerations, motion, rate);
         });
         if !followed {

@@ -25,7 +25,7 @@ fn main() -> Result<(), OcpError> {
     let goal = vec![1.0, std::f64::consts::PI, 0.0, 0.0];
     let step_s = DURATION_S / STEPS as f64;
     let problem = ControlProblem::new(4, 1, cart_pole)
-        .running_cost(move |_, u| u[0] * u[0] * step_s)
+        .running_cost(move |_, u, _| u[0] * u[0] * step_s)
         .terminal_constraints(ComponentBounds::new(goal.clone(), goal.clone()), |x| x.to_vec())
         .state_bounds(ComponentBounds::symmetric(&[
             2.0,

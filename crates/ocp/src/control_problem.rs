@@ -5,14 +5,24 @@ use crate::error::OcpError;
 
 type StageMap = Box<dyn Fn(&[Expr], &[Expr]) -> Vec<Expr>>;
 type StageConstraints = Box<dyn Fn(&[Expr], &[Expr], Expr) -> Vec<Expr>>;
-type StageCost = Box<dyn Fn(&[Expr], &[Expr]) -> Expr>;
+type StageCost = Box<dyn Fn(&[Expr], &[Expr], StepTime) -> Expr>;
 type NodeMap = Box<dyn Fn(&[Expr]) -> Vec<Expr>>;
 type NodeCost = Box<dyn Fn(&[Expr]) -> Expr>;
+
+/// When a step of the grid begins and how long it is. Costs and constraints may depend on it; no derivative is
+/// taken by it.
+#[derive(Clone, Copy, Debug)]
+pub struct StepTime {
+    /// t_k, from the beginning of the horizon.
+    pub start: Expr,
+    /// Δt.
+    pub length: Expr,
+}
 
 /// An optimal control problem in continuous time, stated once for every grid:
 ///
 /// ```text
-/// min  Σ_{k<N} ℓ(x_k, u_k) + φ(x_N)
+/// min  Σ_{k<N} ℓ(x_k, u_k, t_k, Δt) + φ(x_N)
 /// s.t. ẋ = f(x, u),  x(0) given but for its free entries,  u constant over each step
 ///      x_lower ≤ x_k ≤ x_upper,  c_lower ≤ c(x_k) ≤ c_upper     (k = 1…N)
 ///      u_lower ≤ u_k ≤ u_upper,  s_lower ≤ s(x_k, u_k, Δt) ≤ s_upper   (k = 0…N−1)
@@ -50,7 +60,7 @@ impl ControlProblem {
             states,
             controls,
             dynamics: Box::new(dynamics),
-            running_cost: Box::new(|_, _| Expr::constant(0.0)),
+            running_cost: Box::new(|_, _, _| Expr::constant(0.0)),
             terminal_cost: Box::new(|_| Expr::constant(0.0)),
             path: Box::new(|_| Vec::new()),
             path_bounds: ComponentBounds::unbounded(0),
@@ -65,10 +75,13 @@ impl ControlProblem {
         }
     }
 
-    /// Sets the cost `ℓ(x_k, u_k)` of every step, in place of an earlier one. The sum carries no Δt:
-    /// see [`Grid::running_weight`](crate::Grid::running_weight) for the same problem on another
+    /// Sets the cost `ℓ(x_k, u_k, t_k, Δt)` of every step, in place of an earlier one. The sum carries no
+    /// Δt: see [`Grid::running_weight`](crate::Grid::running_weight) for the same problem on another
     /// grid.
-    pub fn running_cost(mut self, cost: impl Fn(&[Expr], &[Expr]) -> Expr + 'static) -> Self {
+    pub fn running_cost(
+        mut self,
+        cost: impl Fn(&[Expr], &[Expr], StepTime) -> Expr + 'static,
+    ) -> Self {
         self.running_cost = Box::new(cost);
         self
     }

@@ -89,6 +89,25 @@ fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
 /// The port of the weights of the stage constraints, after x, u and h.
 const STAGE_WEIGHTS: usize = 3;
 
+/// The port of the weight of the running cost, after x, u, t and h.
+const RUNNING_WEIGHT: usize = 4;
+
+/// Loads states, controls, beginnings and length of a block of steps.
+fn load_running(
+    workspace: &mut righting_symbolic::Workspace,
+    functions: &StageFunctions,
+    block: Block,
+    rows: Rows<'_>,
+    step_s: f64,
+) {
+    block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
+    block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
+    for (lane, step) in block.items() {
+        workspace.input_mut(2)[lane] = step as f64 * step_s;
+    }
+    workspace.input_mut(3).fill(step_s);
+}
+
 /// Loads states, controls and step length of a block of steps.
 fn load_stage(
     workspace: &mut righting_symbolic::Workspace,
@@ -152,8 +171,7 @@ impl Problem for MultipleShooting<'_> {
         let workspace = &mut self.evaluator.running.value;
         let mut running = 0.0;
         for block in Block::cover(steps) {
-            block.load(workspace.input_mut(0), self.functions.states, |k| rows.state(k));
-            block.load(workspace.input_mut(1), self.functions.controls, |k| rows.control(k));
+            load_running(workspace, self.functions, block, rows, self.grid.step_s());
             function.evaluate_block(workspace);
             let costs = lanes(workspace.output(0), 0);
             running += block.items().map(|(lane, _)| costs[lane]).sum::<f64>();
@@ -178,8 +196,7 @@ impl Problem for MultipleShooting<'_> {
         let running = &self.functions.running;
         let workspace = &mut self.evaluator.running.first;
         for block in Block::cover(steps) {
-            block.load(workspace.input_mut(0), states, |k| rows.state(k));
-            block.load(workspace.input_mut(1), self.functions.controls, |k| rows.control(k));
+            load_running(workspace, self.functions, block, rows, self.grid.step_s());
             running.first.evaluate_block(workspace);
             let computed = workspace.output(1);
             for (lane, step) in block.items() {
@@ -337,9 +354,8 @@ impl Problem for MultipleShooting<'_> {
             }
 
             let workspace = &mut evaluator.running.second;
-            block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
-            block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
-            workspace.input_mut(2).fill(running_factor);
+            load_running(workspace, functions, block, rows, grid.step_s());
+            workspace.input_mut(RUNNING_WEIGHT).fill(running_factor);
             functions.running.second.evaluate_block(workspace);
             let computed = workspace.output(0);
             for (lane, node) in block.items() {

@@ -17,7 +17,7 @@
 //! // A double integrator from rest at 0 to rest at 1 in one second with the least effort ∫u²:
 //! // u(t) = 6 − 12 t, cost 12.
 //! let problem = ControlProblem::new(2, 1, |x, u| vec![x[1], u[0]])
-//!     .running_cost(|_, u| u[0].powi(2) / 50.0)
+//!     .running_cost(|_, u, _| u[0].powi(2) / 50.0)
 //!     .terminal_constraints(ComponentBounds::new(vec![1.0, 0.0], vec![1.0, 0.0]), |x| x.to_vec());
 //! let functions = StageFunctions::compile(&problem)?;
 //! let grid = Grid::new(1.0, 50)?;
@@ -67,7 +67,7 @@ mod trajectory;
 
 pub use attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 pub use component_bounds::ComponentBounds;
-pub use control_problem::ControlProblem;
+pub use control_problem::{ControlProblem, StepTime};
 pub use decision_layout::{DecisionLayout, ShootingDimensions};
 pub use error::OcpError;
 pub use grid::Grid;

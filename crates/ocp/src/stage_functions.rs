@@ -3,7 +3,7 @@ use std::num::NonZeroUsize;
 use righting_symbolic::{Backend, Expr, Function};
 
 use crate::component_bounds::ComponentBounds;
-use crate::control_problem::ControlProblem;
+use crate::control_problem::{ControlProblem, StepTime};
 use crate::error::OcpError;
 use crate::node_function::NodeFunction;
 use crate::passive::active_states;
@@ -25,6 +25,7 @@ pub struct StageFunctions {
     pub(crate) full_ode: Option<Function>,
     pub(crate) ode: NodeFunction,
     pub(crate) step: StepFunctions,
+    /// Of a step; the ports `x` and `u` are followed by its beginning `t` and its length `h`.
     pub(crate) running: NodeFunction,
     pub(crate) terminal_cost: NodeFunction,
     pub(crate) path: NodeFunction,
@@ -72,7 +73,8 @@ impl StageFunctions {
                 return Err(OcpError::Dimension { what, expected, found });
             }
         }
-        let running = (problem.running_cost)(&all, &u);
+        let start = Expr::symbol("t");
+        let running = (problem.running_cost)(&all, &u, StepTime { start, length: h });
         let terminal_cost = (problem.terminal_cost)(&all);
 
         let seen: Vec<Expr> = [running, terminal_cost]
@@ -111,7 +113,12 @@ impl StageFunctions {
             all_states: problem.states,
             full_ode,
             step: StepFunctions::compile(n, m, &ode, NonZeroUsize::MIN)?,
-            running: NodeFunction::compile("running_cost", &[("x", &x), ("u", &u)], &[running])?,
+            running: NodeFunction::with_parameters(
+                "running_cost",
+                &variables,
+                &[("t", &[start]), ("h", &[h])],
+                &[running],
+            )?,
             terminal_cost: on_state("terminal_cost", &[terminal_cost])?,
             path: on_state("path", &path)?,
             terminal: on_state("terminal", &terminal)?,

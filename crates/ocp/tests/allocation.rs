@@ -11,7 +11,7 @@ use righting_ocp::*;
 #[test]
 fn an_iteration_allocates_nothing() {
     let problem = ControlProblem::new(3, 1, |x, u| vec![x[1], u[0] - x[0].sin(), x[0] * x[2]])
-        .running_cost(|x, u| u[0] * u[0] + x[2] * x[2])
+        .running_cost(|x, u, _| u[0] * u[0] + x[2] * x[2])
         .terminal_cost(|x| x[0].powi(2))
         .path_constraints(ComponentBounds::new(vec![-1.0], vec![1.0]), |x| vec![x[0] * x[1]])
         .stage_constraints(ComponentBounds::new(vec![-9.0], vec![9.0]), |x, u, h| {

@@ -29,7 +29,9 @@ fn tangled(x: &[Expr], u: &[Expr]) -> Vec<Expr> {
 
 fn problem() -> ControlProblem {
     ControlProblem::new(5, 2, tangled)
-        .running_cost(|x, u| u[0] * u[0] * x[1].exp() + u[1] * u[1] + x[3])
+        .running_cost(|x, u, step| {
+            u[0] * u[0] * x[1].exp() * step.length + u[1] * u[1] + x[3] * x[3] * step.start
+        })
         .terminal_cost(|x| (x[0] - 1.0).powi(2) * x[2] + x[1] * 3.0)
         .path_constraints(ComponentBounds::new(vec![-1.0, 0.0], vec![f64::INFINITY, 2.0]), |x| {
             vec![x[0] * x[1] + x[2].minimum(x[3]), x[3].powi(3)]
@@ -95,7 +97,7 @@ fn derivatives_agree_with_finite_differences_for_any_number_of_steps() {
 fn so_do_those_of_stage_constraints_with_and_without_others() {
     let plain = || {
         ControlProblem::new(5, 2, tangled)
-            .running_cost(|x, u| u[0] * u[0] * x[1].exp() + x[3])
+            .running_cost(|x, u, _| u[0] * u[0] * x[1].exp() + x[3])
             .terminal_cost(|x| x[2] * x[0])
     };
     for (steps, substeps) in [(1, 1), (2, 3), (5, 1), (17, 2)] {

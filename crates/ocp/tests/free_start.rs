@@ -9,7 +9,7 @@ fn fastest(is_bounded: bool) -> ControlProblem {
     let unbounded = f64::INFINITY;
     ControlProblem::new(3, 1, |x, u| vec![x[2] * x[1], x[2] * u[0], Expr::constant(0.0)])
         .free_initial_states(&[2])
-        .running_cost(|x, u| x[2] * u[0].powi(2) * 1e-9)
+        .running_cost(|x, u, _| x[2] * u[0].powi(2) * 1e-9)
         .terminal_cost(|x| x[2])
         .state_bounds(ComponentBounds::new(
             vec![-unbounded, -unbounded, shortest],

@@ -52,7 +52,7 @@ fn a_swing_up_with_a_fixed_end() {
     let end = ComponentBounds::new(goal.to_vec(), goal.to_vec());
     let unbounded = f64::INFINITY;
     let problem = ControlProblem::new(4, 1, cart_pole)
-        .running_cost(|_, u| u[0] * u[0] * 0.02)
+        .running_cost(|_, u, _| u[0] * u[0] * 0.02)
         .terminal_constraints(end, |x| x.to_vec())
         .state_bounds(ComponentBounds::symmetric(&[2.0, unbounded, unbounded, unbounded]))
         .control_bounds(ComponentBounds::symmetric(&[20.0]));
@@ -75,7 +75,7 @@ fn a_detour_with_path_constraints() {
     let infinity = f64::INFINITY;
     let path = ComponentBounds::new(vec![1.0, 0.0], vec![infinity, 0.0]);
     let problem = ControlProblem::new(6, 3, |x, u| vec![x[3], x[4], x[5], u[0], u[1], u[2]])
-        .running_cost(|_, u| u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
+        .running_cost(|_, u, _| u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
         .terminal_cost(|x| {
             ((x[0] - 2.0).powi(2) + (x[1] - 0.1).powi(2) + x[3].powi(2) + x[4].powi(2)) * 1e3
         })

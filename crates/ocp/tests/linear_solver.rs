@@ -20,7 +20,7 @@ fn cart(x: &[Expr], u: &[Expr]) -> Vec<Expr> {
 fn problem(motor: f64) -> ControlProblem {
     let rest = vec![1.0, 0.0, 0.0, 0.0];
     ControlProblem::new(4, 2, cart)
-        .running_cost(|_, u| u[0].powi(2) + u[1].powi(2))
+        .running_cost(|_, u, _| u[0].powi(2) + u[1].powi(2))
         .control_bounds(ComponentBounds::symmetric(&[8.0, motor]))
         .path_constraints(ComponentBounds::new(vec![0.9], vec![f64::INFINITY]), |x| {
             vec![x[1].cos()]

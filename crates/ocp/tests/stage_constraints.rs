@@ -13,7 +13,7 @@ fn cart(x: &[Expr], u: &[Expr]) -> Vec<Expr> {
 fn wall() -> ControlProblem {
     let at_start = ComponentBounds::new(vec![0.0, 0.0], vec![0.0, 0.0]);
     ControlProblem::new(3, 1, cart)
-        .running_cost(|x, u| u[0].powi(2) * 0.01 - x[0])
+        .running_cost(|x, u, _| u[0].powi(2) * 0.01 - x[0])
         .state_bounds(ComponentBounds::new(
             vec![f64::NEG_INFINITY; 3],
             vec![1.0, f64::INFINITY, f64::INFINITY],
@@ -72,7 +72,7 @@ fn every_solver_finds_the_same_optimum() {
     // An equality too, and one that needs Δt.
     let bounds = ComponentBounds::new(vec![f64::NEG_INFINITY, 0.0], vec![1.0, 0.0]);
     let problem = ControlProblem::new(2, 2, |x, u| vec![x[1], u[0] + 0.3 * u[1]])
-        .running_cost(|x, u| u[0].powi(2) * 0.1 + u[1].powi(2) * 0.01 - x[0])
+        .running_cost(|x, u, _| u[0].powi(2) * 0.1 + u[1].powi(2) * 0.01 - x[0])
         .terminal_constraints(ComponentBounds::new(vec![0.0; 2], vec![0.0; 2]), |x| x.to_vec())
         .path_constraints(ComponentBounds::new(vec![-3.0], vec![3.0]), |x| vec![x[1] + 0.1 * x[0]])
         .stage_constraints(bounds, |x, u, h| {

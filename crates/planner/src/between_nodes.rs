@@ -16,6 +16,8 @@ use cones::PassedCone;
 
 /// How far an angle may be past its limit, rad: nine tenths of what the verifier lets pass, as below.
 const ANGLE_RAD: f64 = 9e-4;
+/// How far a rate may be past its limit between nodes, rad a unit of time: the same.
+const RATE: f64 = 9e-4;
 /// How much of the clearance a distance may lack, …
 const CLEARANCE_SHARE: f64 = 0.09;
 /// … how much of the system's size at most, and how little is nothing.
@@ -29,7 +31,7 @@ const LEAST_LACKING: f64 = 9e-7;
 /// The limits that are passed between nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PassedLimits {
-    /// Joints whose angle does, counted from zero.
+    /// Joints whose angle or rate does, counted from zero.
     pub(crate) joints: BTreeSet<usize>,
     /// Clearances that are not kept, by their place in [`Clearances`].
     pub(crate) clearances: BTreeMap<usize, PassedClearance>,
@@ -63,29 +65,66 @@ impl PassedLimits {
     }
 }
 
-/// One step of a motion: joint angles, rates and accelerations where it begins, and its length.
+/// One step of a motion: joint angles, rates and accelerations where it begins, its jerks and its length.
 #[derive(Clone, Copy)]
 struct Step<'a> {
     angles: &'a [f64],
     rates: &'a [f64],
     accelerations: &'a [f64],
+    jerks: &'a [f64],
     duration: f64,
 }
 
 impl Step<'_> {
     fn angle(&self, joint: usize, after: f64) -> f64 {
-        let rate = self.rates[joint] + 0.5 * after * self.accelerations[joint];
-        self.angles[joint] + after * rate
+        let acceleration = self.accelerations[joint] + after * self.jerks[joint] / 3.0;
+        self.angles[joint] + after * (self.rates[joint] + 0.5 * after * acceleration)
+    }
+
+    fn rate(&self, joint: usize, after: f64) -> f64 {
+        let acceleration = self.accelerations[joint] + 0.5 * after * self.jerks[joint];
+        self.rates[joint] + after * acceleration
+    }
+
+    fn acceleration(&self, joint: usize, after: f64) -> f64 {
+        self.accelerations[joint] + after * self.jerks[joint]
+    }
+
+    /// A bound on the magnitude of a joint's rate between two times: a parabola is off its chord by |q⃛| Δt²/8
+    /// at most.
+    fn largest_rate(&self, joint: usize, [from, to]: [f64; 2]) -> f64 {
+        let bulge = self.jerks[joint].abs() * (to - from).powi(2) / 8.0;
+        self.rate(joint, from).abs().max(self.rate(joint, to).abs()) + bulge
+    }
+
+    fn largest_acceleration(&self, joint: usize, [from, to]: [f64; 2]) -> f64 {
+        self.acceleration(joint, from).abs().max(self.acceleration(joint, to).abs())
     }
 
     /// The angle farthest past a limit where the joint turns back within the step, rad.
     fn excess_where_it_turns(&self, joint: usize, limits: &JointLimits) -> f64 {
-        let after = -self.rates[joint] / self.accelerations[joint];
+        let (rate, acceleration) = (self.rates[joint], self.accelerations[joint]);
+        let jerk = self.jerks[joint];
+        let turns = if jerk == 0.0 {
+            [-rate / acceleration, f64::NAN]
+        } else {
+            let root = (acceleration * acceleration - 2.0 * jerk * rate).sqrt();
+            let sum = acceleration + root.copysign(acceleration);
+            [-2.0 * rate / sum, -sum / jerk]
+        };
+        let within = turns.into_iter().filter(|&after| after > 0.0 && after < self.duration);
+        let excesses = within.map(|after| {
+            let angle = self.angle(joint, after);
+            (angle - limits.angle_max_rad).max(limits.angle_min_rad - angle)
+        });
+        excesses.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// How far the rate is past its limit where it is the largest within the step.
+    fn excess_of_rate(&self, joint: usize, limits: &JointLimits) -> f64 {
+        let after = -self.accelerations[joint] / self.jerks[joint];
         match after > 0.0 && after < self.duration {
-            true => {
-                let angle = self.angle(joint, after);
-                (angle - limits.angle_max_rad).max(limits.angle_min_rad - angle)
-            }
+            true => self.rate(joint, after).abs() - limits.rate_max_rad_s,
             false => f64::NEG_INFINITY,
         }
     }
@@ -111,11 +150,14 @@ pub(crate) fn passed_limits(
         let step = Step {
             angles: coordinates.joint_angles(x),
             rates: coordinates.joint_rates(x),
-            accelerations: u,
+            accelerations: &coordinates.accelerations(x, u),
+            jerks: &coordinates.jerks(u),
             duration,
         };
         for (joint, limits) in joint_limits.iter().enumerate() {
-            if step.excess_where_it_turns(joint, limits) > ANGLE_RAD {
+            let is_passed = step.excess_where_it_turns(joint, limits) > ANGLE_RAD
+                || step.excess_of_rate(joint, limits) > RATE;
+            if is_passed {
                 passed.joints.insert(joint);
             }
         }

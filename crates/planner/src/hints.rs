@@ -118,6 +118,10 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
             is_fast(interval.joint_accelerations_rad_s2[joint], limits.acceleration_max_rad_s2)
         });
         note(joint, "acceleration", accelerating.count(), intervals.len());
+        let jerking = intervals
+            .iter()
+            .filter(|interval| is_fast(interval.joint_jerk_rad_s3(joint), limits.jerk_max_rad_s3));
+        note(joint, "jerk", jerking.count(), intervals.len());
         let moving =
             nodes.iter().filter(|n| is_fast(n.joint_rates_rad_s[joint], limits.rate_max_rad_s));
         note(joint, "rate", moving.count(), nodes.len());

@@ -169,16 +169,37 @@ impl InitialGuesses<'_> {
             let row = self.coordinates.of_free_floating_state(&state, self.time(node));
             guess.states.row_mut(node).copy_from_slice(&row);
         }
-        for step in 0..self.steps {
-            let middle = (step as f64 + 0.5) / self.steps as f64;
-            let old = &plan.intervals()[((middle * old_steps as f64) as usize).min(old_steps - 1)];
-            let controls = guess.controls.row_mut(step);
-            for (control, acceleration) in controls.iter_mut().zip(&old.joint_accelerations_rad_s2)
-            {
-                *control = acceleration * faster * faster;
-            }
+        for joint in 0..plan.joints() {
+            self.accelerate(&mut guess, joint, |steps| {
+                let phase = steps / self.steps as f64;
+                acceleration_at(plan, joint, phase) * faster * faster
+            });
         }
         self.to_end_posture(guess)
+    }
+
+    /// Adds a joint's acceleration, a function of time counted in steps: held at its values in the middles of
+    /// the steps, or, where accelerations are states, linear between those at the nodes and zero at both ends.
+    fn accelerate(
+        &self,
+        guess: &mut InitialGuess,
+        joint: usize,
+        acceleration: impl Fn(f64) -> f64,
+    ) {
+        let Some(state) = self.coordinates.joint_acceleration(joint) else {
+            for step in 0..self.steps {
+                guess.controls.row_mut(step)[joint] += acceleration(step as f64 + 0.5);
+            }
+            return;
+        };
+        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
+        let mut before = 0.0;
+        for node in 1..=self.steps {
+            let here = if node < self.steps { acceleration(node as f64) } else { 0.0 };
+            guess.states.row_mut(node)[state] += here;
+            guess.controls.row_mut(node - 1)[joint] += (here - before) / step_s;
+            before = here;
+        }
     }
 
     /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
@@ -249,12 +270,19 @@ impl InitialGuesses<'_> {
                 row[angle] += motion.angle(phase);
                 row[rate] += motion.rate(phase);
             }
-            for step in 0..self.steps {
-                let phase = (step as f64 + 0.5) / self.steps as f64;
-                guess.controls.row_mut(step)[joint] += motion.acceleration(phase);
-            }
+            self.accelerate(guess, joint, |steps| motion.acceleration(steps / self.steps as f64));
         }
     }
+}
+
+/// A joint's acceleration at a share of a plan's duration; of one that is held, where it changes, the new one.
+fn acceleration_at(plan: &Trajectory, joint: usize, phase: f64) -> f64 {
+    let position = phase * plan.steps() as f64;
+    let before = (position.floor() as usize).min(plan.steps() - 1);
+    let [from_s, to_s] = [before, before + 1].map(|node| plan.nodes()[node].time_s);
+    let interval = &plan.intervals()[before];
+    let after_s = (position - before as f64) * (to_s - from_s);
+    interval.joint_accelerations_rad_s2[joint] + after_s * interval.joint_jerk_rad_s3(joint)
 }
 
 /// `amplitude · ((1 − b) (1 − cos πs)/2 + b sin² πs)` at the share s of the duration.

@@ -143,21 +143,18 @@ fn trajectory(
     let mut intervals = Vec::with_capacity(steps);
     // The joints' own motion, exactly as the controls have it: the optimizer's defects would add up.
     let step_s = scaling.duration(scenario.horizon().step_s());
+    let coordinates = &found.coordinates;
     let mut joints = found.solution.states.row(0).to_vec();
     for k in 0..=steps {
         let mut row = found.solution.states.row(k).to_vec();
-        found.coordinates.copy_joints(&joints, &mut row);
-        let state = scaling.state(found.coordinates.free_floating_state(&row));
+        coordinates.copy_joints(&joints, &mut row);
+        let state = scaling.state(coordinates.free_floating_state(&row));
+        let controls = found.solution.controls.row(k.min(steps - 1));
+        let accelerations = coordinates.accelerations(&joints, controls);
         if k < steps {
-            found.coordinates.move_joints(&mut joints, found.solution.controls.row(k), step_s);
+            coordinates.move_joints(&mut joints, controls, step_s);
         }
-        let mut accelerations =
-            scaling.accelerations(found.solution.controls.row(k.min(steps - 1)));
-        for (joint, acceleration) in accelerations.iter_mut().enumerate() {
-            if found.coordinates.is_locked(joint) {
-                *acceleration = 0.0;
-            }
-        }
+        let accelerations = scaling.accelerations(&accelerations);
         let torques = system.joint_torques(
             &state.angular_rate,
             &state.joint_angles,
@@ -181,6 +178,10 @@ fn trajectory(
         if k < steps {
             intervals.push(ControlInterval {
                 joint_accelerations_rad_s2: accelerations,
+                joint_jerks_rad_s3: match coordinates.has_jerk() {
+                    true => scaling.jerks(&coordinates.jerks(controls)),
+                    false => Vec::new(),
+                },
                 joint_torques_n_m: torques,
             });
         }

@@ -244,4 +244,7 @@ pub enum PlanError {
     /// No motion of the arm makes the maneuver.
     #[error(transparent)]
     Impossible(#[from] Impossible),
+    /// A plan of this kind is not planned anew on the way.
+    #[error("{0}")]
+    NotReplanned(&'static str),
 }

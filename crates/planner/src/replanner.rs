@@ -25,6 +25,10 @@ const TOLERANCE: f64 = 1e-6;
 /// Iterations after which it is given up: most need three.
 const ITERATIONS: u32 = 40;
 
+/// What is not planned anew.
+const JERKS: &str =
+    "links[].jerk_max_deg_s3: maneuvers with limited jerks are not planned anew on the way";
+
 /// Where a maneuver is.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
@@ -69,7 +73,7 @@ impl Replanner {
     ///
     /// # Errors
     /// [`PlanError::Shape`] when the plan is of other joints or another grid, [`PlanError::Ocp`] when it is
-    /// not near a solution.
+    /// not near a solution, [`PlanError::NotReplanned`] when jerks are limited.
     pub fn new(scenario: &Scenario, plan: &Trajectory) -> Result<Self, PlanError> {
         let counts = [
             ("joints of the plan", plan.joints(), scenario.system().joint_count()),
@@ -79,6 +83,9 @@ impl Replanner {
             if found != needed {
                 return Err(ShapeError { what: what.to_owned(), found, needed }.into());
             }
+        }
+        if scenario.system().limits_jerk() {
+            return Err(PlanError::NotReplanned(JERKS));
         }
         let fixed = match scenario.free_duration() {
             Some(_) => scenario.clone().with_duration(plan.end().time_s),

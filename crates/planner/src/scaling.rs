@@ -137,6 +137,11 @@ impl Scaling {
         measured.iter().map(|acceleration| acceleration / self.units.time_s.powi(2)).collect()
     }
 
+    /// Joint jerks in SI units.
+    pub(crate) fn jerks(&self, measured: &[f64]) -> Vec<f64> {
+        measured.iter().map(|jerk| jerk / self.units.time_s.powi(3)).collect()
+    }
+
     /// An iteration's record with the objective in the file's weights.
     pub(crate) fn record(&self, measured: &IterationRecord) -> IterationRecord {
         let objective = measured.objective * self.objective;
@@ -156,8 +161,10 @@ impl Scaling {
         });
         let intervals = motion.intervals().iter().map(|interval| {
             let accelerations = interval.joint_accelerations_rad_s2.iter();
+            let jerks = interval.joint_jerks_rad_s3.iter();
             ControlInterval {
                 joint_accelerations_rad_s2: accelerations.map(|u| u * time_s.powi(2)).collect(),
+                joint_jerks_rad_s3: jerks.map(|jerk| jerk * time_s.powi(3)).collect(),
                 ..interval.clone()
             }
         });
@@ -167,6 +174,7 @@ impl Scaling {
 }
 
 /// Whether a joint is near its rate or acceleration limit most of the time: then that is in the way, not effort.
+/// Jerks are at their limits in gentle plans too.
 fn is_at_limits(measured: &Scenario, found: &Found) -> bool {
     let (solution, limits) = (&found.solution, &measured.system().joint_limits);
     limits.iter().enumerate().any(|(joint, limits)| {
@@ -175,8 +183,9 @@ fn is_at_limits(measured: &Scenario, found: &Found) -> bool {
         let (u_max, rate_max) = (limits.acceleration_max_rad_s2, limits.rate_max_rad_s);
         let steps = solution.controls.len();
         let near = (0..steps).filter(|&step| {
-            is_near(solution.controls.row(step)[joint], u_max)
-                || is_near(solution.states.row(step)[rate], rate_max)
+            let (x, u) = (solution.states.row(step), solution.controls.row(step));
+            is_near(found.coordinates.accelerations(x, u)[joint], u_max)
+                || is_near(x[rate], rate_max)
         });
         2 * near.count() > steps
     })

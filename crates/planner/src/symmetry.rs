@@ -116,6 +116,7 @@ impl Mirror {
         });
         let intervals = motion.intervals().iter().map(|interval| ControlInterval {
             joint_accelerations_rad_s2: self.joints(&interval.joint_accelerations_rad_s2),
+            joint_jerks_rad_s3: self.joints(&interval.joint_jerks_rad_s3),
             joint_torques_n_m: self.joints(&interval.joint_torques_n_m),
         });
         joined(nodes.collect(), intervals.collect())
@@ -149,7 +150,16 @@ pub(crate) fn reversed(motion: &Trajectory) -> Trajectory {
         joint_rates_rad_s: node.joint_rates_rad_s.iter().map(|rate| -rate).collect(),
         power_w: -node.power_w,
     });
-    joined(nodes.collect(), motion.intervals().iter().rev().cloned().collect())
+    let lengths = motion.nodes().windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
+    let intervals = motion.intervals().iter().zip(lengths).rev().map(|(interval, length_s)| {
+        let jerks = interval.joint_jerks_rad_s3.iter();
+        ControlInterval {
+            joint_accelerations_rad_s2: interval.joint_accelerations_after(length_s),
+            joint_jerks_rad_s3: jerks.map(|jerk| -jerk).collect(),
+            ..interval.clone()
+        }
+    });
+    joined(nodes.collect(), intervals.collect())
 }
 
 fn joined(nodes: Vec<Node>, intervals: Vec<ControlInterval>) -> Trajectory {
@@ -232,6 +242,7 @@ mod tests {
         };
         let interval = |u: f64| ControlInterval {
             joint_accelerations_rad_s2: vec![u],
+            joint_jerks_rad_s3: vec![0.2],
             joint_torques_n_m: vec![2.0 * u],
         };
         let nodes = vec![node(0.0, 0.0), node(1.0, 0.3), node(2.0, 0.4)];
@@ -241,8 +252,15 @@ mod tests {
         let (_, angle_rad) = turned.to_axis_angle();
         assert!((angle_rad - 0.4).abs() < 1e-12);
         assert_eq!(backwards.end().joint_rates_rad_s, [-0.5]);
+        // The last interval's acceleration grows from 0.2 to 0.4.
+        assert!((backwards.intervals()[0].joint_accelerations_rad_s2[0] - 0.4).abs() < 1e-15);
         let again = reversed(&backwards);
-        assert_eq!(again.intervals(), motion.intervals());
+        for (interval, other) in motion.intervals().iter().zip(again.intervals()) {
+            let [u, there] =
+                [interval, other].map(|interval| interval.joint_accelerations_rad_s2[0]);
+            assert!((u - there).abs() < 1e-15);
+            assert_eq!(interval.joint_jerks_rad_s3, other.joint_jerks_rad_s3);
+        }
         for (node, other) in motion.nodes().iter().zip(again.nodes()) {
             assert!((node.state().attitude.angle_to(&other.state().attitude)).abs() < 1e-7);
             assert!(

@@ -41,7 +41,7 @@ fn flown(
     let mut integrator = DormandPrince::new(x.len());
     for control in &replan.accelerations_rad_s2 {
         let step_s = scenario.horizon().step_s();
-        assert!(integrator.advance(&mut x, step_s, |x, rate| {
+        assert!(integrator.advance(&mut x, step_s, |_, x, rate| {
             model.state_derivative(x, control, &mut motion, rate);
         }));
     }

@@ -9,11 +9,11 @@ use crate::panel::{Curve, Panel, Rule, RuleKind};
 use crate::style;
 
 const PANEL_SIZE: [f64; 2] = [290.0, 92.0];
-/// Below these heights (deg, deg/s, deg/s²) a curve counts as constant.
-const LEAST_SPANS: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// Below these heights (deg, deg/s, deg/s², deg/s³) a curve counts as constant.
+const LEAST_SPANS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 
-/// The figure of angle, rate and acceleration of every joint with its limits, as an SVG document:
-/// one row a joint, one column a quantity, degrees throughout.
+/// The figure of angle, rate, acceleration and, where the plan has it, jerk of every joint with its limits,
+/// as an SVG document: one row a joint, one column a quantity, degrees throughout.
 pub fn joints_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     let links = links(&solution.scenario);
     let panels = (0..trajectory.joints())
@@ -24,7 +24,7 @@ pub fn joints_svg(solution: &Solution, trajectory: &Trajectory) -> String {
         title,
         subtitle,
         places: trajectory.nodes().iter().map(|node| node.time_s).collect(),
-        columns: 3,
+        columns: if trajectory.has_jerks() { 4 } else { 3 },
         panel_size: PANEL_SIZE,
         panels,
         ..Figure::default()
@@ -40,28 +40,39 @@ fn links(scenario: &Scenario) -> &[Link] {
     }
 }
 
-fn joint_panels(trajectory: &Trajectory, joint: usize, link: Option<&Link>) -> [Panel; 3] {
+fn joint_panels(trajectory: &Trajectory, joint: usize, link: Option<&Link>) -> Vec<Panel> {
     let nodes = trajectory.nodes().iter();
     let angles = nodes.clone().map(|n| n.joint_angles_rad[joint]).collect();
     let rates = nodes.map(|n| n.joint_rates_rad_s[joint]).collect();
-    let intervals = trajectory.intervals().iter();
-    let accelerations = intervals.map(|i| i.joint_accelerations_rad_s2[joint]).collect();
     let either_way = |bound: Option<f64>| [bound.map(|b| -b), bound];
     let angle_limits = [link.and_then(|l| l.angle_min_deg), link.and_then(|l| l.angle_max_deg)];
     let rate_limits = either_way(link.map(|l| l.rate_max_deg_s));
     let acceleration_limits = either_way(link.map(|l| l.acceleration_max_deg_s2));
     let number = joint + 1;
-    [
+    let mut panels = vec![
         panel(format!("Joint {number} angle [deg]"), angles, angle_limits, LEAST_SPANS[0], false),
         panel(format!("Joint {number} rate [deg/s]"), rates, rate_limits, LEAST_SPANS[1], false),
         panel(
             format!("Joint {number} acceleration [deg/s²]"),
-            accelerations,
+            accelerations(trajectory, joint),
             acceleration_limits,
             LEAST_SPANS[2],
-            true,
+            !trajectory.has_jerks(),
         ),
-    ]
+    ];
+    if trajectory.has_jerks() {
+        let jerks = trajectory.intervals().iter().map(|i| i.joint_jerk_rad_s3(joint)).collect();
+        let limits = either_way(link.and_then(|l| l.jerk_max_deg_s3));
+        let heading = format!("Joint {number} jerk [deg/s³]");
+        panels.push(panel(heading, jerks, limits, LEAST_SPANS[3], true));
+    }
+    panels
+}
+
+/// A joint's acceleration, rad/s²: of every interval where it is held, else at every node.
+pub(crate) fn accelerations(trajectory: &Trajectory, joint: usize) -> Vec<f64> {
+    let values = trajectory.steps() + usize::from(trajectory.has_jerks());
+    (0..values).map(|k| trajectory.joint_accelerations_at(k)[joint]).collect()
 }
 
 /// A panel of one curve, given in radians, between limits in degrees.

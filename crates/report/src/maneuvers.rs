@@ -8,6 +8,7 @@ use righting_scenario::file::{ManeuverType, Scenario};
 use crate::asked;
 use crate::attitude::{rate_panel, slew_panels};
 use crate::figure::Figure;
+use crate::joints::accelerations;
 use crate::panel::{Curve, Panel};
 
 const PANEL_SIZE: [f64; 2] = [290.0, 120.0];
@@ -60,7 +61,6 @@ fn column(name: &str, scenario: &Scenario, trajectory: &Trajectory) -> Vec<Panel
         };
         (0..trajectory.joints()).map(curve).collect()
     };
-    let intervals = trajectory.intervals();
     let panel = |heading: &str, curves: Vec<Curve>, least_span: f64| Panel {
         heading: heading.to_owned(),
         curves,
@@ -69,8 +69,10 @@ fn column(name: &str, scenario: &Scenario, trajectory: &Trajectory) -> Vec<Panel
     };
     let angles = joints(&|k, joint| nodes[k].joint_angles_rad[joint], nodes.len(), false);
     let rates = joints(&|k, joint| nodes[k].joint_rates_rad_s[joint], nodes.len(), false);
-    let accelerations =
-        joints(&|k, joint| intervals[k].joint_accelerations_rad_s2[joint], intervals.len(), true);
+    let by_joint: Vec<Vec<f64>> =
+        (0..trajectory.joints()).map(|joint| accelerations(trajectory, joint)).collect();
+    let is_held = !trajectory.has_jerks();
+    let accelerations = joints(&|k, joint| by_joint[joint][k], by_joint[0].len(), is_held);
     let named = |mut curves: Vec<Curve>, joints: Range<usize>| -> Vec<Curve> {
         let named = curves.iter_mut().enumerate().filter(|(joint, _)| joints.contains(joint));
         named.for_each(|(joint, curve)| curve.name = (joint + 1).to_string());

@@ -4,7 +4,7 @@ use righting_multibody::State;
 use righting_scenario::scenario::{Maneuver, Scenario};
 
 use crate::solution::Terminal;
-use crate::trajectory::Trajectory;
+use crate::trajectory::{ControlInterval, Trajectory};
 
 impl Terminal {
     /// What the last node of a trajectory reached.
@@ -38,7 +38,7 @@ impl Terminal {
     }
 }
 
-/// The objective of a trajectory in its scenario's weights: Σ w_u uᵀu Δt / 0.05 s over the intervals and the
+/// The objective of a trajectory in its scenario's weights: w_u ∫ q̈ᵀq̈ dt / 0.05 s and the
 /// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity
 /// and rates shall be zero; joint angles those in which the joints shall end, and where that is open those of the
 /// start, as the attitude of a detumble.
@@ -49,11 +49,8 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         Maneuver::Slew(slew) => slew.target,
         Maneuver::Detumble => initial.attitude,
     };
-    let effort: f64 = trajectory
-        .intervals()
-        .iter()
-        .map(|interval| sum_of_squares(&interval.joint_accelerations_rad_s2))
-        .sum();
+    let step_s = scenario.horizon().step_s();
+    let effort: f64 = trajectory.intervals().iter().map(|i| mean_square(i, step_s)).sum();
     let end = trajectory.end().state();
     let desired_angles = scenario.desired_joint_angles_rad();
     let angles = end.joint_angles.iter().zip(&desired_angles);
@@ -66,6 +63,16 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         + weights.angular_rate * end.angular_rate.norm_squared()
         + weights.joint_angle * joint_error
         + weights.joint_rate * sum_of_squares(&end.joint_rates)
+}
+
+/// The mean of ‖q̈‖² over an interval; q̈ is linear in it.
+fn mean_square(interval: &ControlInterval, step_s: f64) -> f64 {
+    let first = interval.joint_accelerations_rad_s2.iter().enumerate();
+    let of_joint = |(joint, acceleration): (usize, &f64)| {
+        let gained = step_s * interval.joint_jerk_rad_s3(joint);
+        acceleration * acceleration + acceleration * gained + gained * gained / 3.0
+    };
+    first.map(of_joint).sum()
 }
 
 fn sum_of_squares(values: &[f64]) -> f64 {

@@ -46,10 +46,28 @@ impl Node {
 /// What acts between node k and node k + 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlInterval {
-    /// Joint accelerations, held over the interval: the control.
+    /// Joint accelerations at the interval's first node, held over it unless there are jerks.
     pub joint_accelerations_rad_s2: Vec<f64>,
+    /// Joint jerks, held over the interval: accelerations are linear in time. Empty in a trajectory whose
+    /// accelerations are held.
+    pub joint_jerks_rad_s3: Vec<f64>,
     /// Joint torques at the interval's first node.
     pub joint_torques_n_m: Vec<f64>,
+}
+
+impl ControlInterval {
+    /// A joint's jerk, rad/s³: zero where accelerations are held.
+    pub fn joint_jerk_rad_s3(&self, joint: usize) -> f64 {
+        self.joint_jerks_rad_s3.get(joint).copied().unwrap_or(0.0)
+    }
+
+    /// Joint accelerations a time after the interval's first node, rad/s².
+    pub fn joint_accelerations_after(&self, after_s: f64) -> Vec<f64> {
+        let first = self.joint_accelerations_rad_s2.iter().enumerate();
+        first
+            .map(|(joint, acceleration)| acceleration + after_s * self.joint_jerk_rad_s3(joint))
+            .collect()
+    }
 }
 
 /// A trajectory of N intervals between N + 1 nodes; N ≥ 1, and every part has the same joints.
@@ -63,8 +81,8 @@ impl Trajectory {
     /// Joins nodes and intervals.
     ///
     /// # Errors
-    /// There must be one more node than intervals, at least one interval, and the same number of
-    /// joints everywhere.
+    /// There must be one more node than intervals, at least one interval, the same number of joints
+    /// everywhere, and jerks in all intervals or in none.
     pub fn new(nodes: Vec<Node>, intervals: Vec<ControlInterval>) -> Result<Self, ShapeError> {
         let require = |what: &dyn Fn() -> String, found: usize, needed: usize| {
             if found == needed { Ok(()) } else { Err(ShapeError { what: what(), found, needed }) }
@@ -82,6 +100,9 @@ impl Trajectory {
             require(&|| format!("joint accelerations of interval {k}"), accelerations, joints)?;
             let torques = interval.joint_torques_n_m.len();
             require(&|| format!("joint torques of interval {k}"), torques, joints)?;
+            let jerks = if intervals[0].joint_jerks_rad_s3.is_empty() { 0 } else { joints };
+            let found = interval.joint_jerks_rad_s3.len();
+            require(&|| format!("joint jerks of interval {k}"), found, jerks)?;
         }
         Ok(Self { nodes, intervals })
     }
@@ -99,6 +120,26 @@ impl Trajectory {
     /// Number of joints j.
     pub fn joints(&self) -> usize {
         self.nodes[0].joint_angles_rad.len()
+    }
+
+    /// Whether accelerations are linear between nodes, by the intervals' jerks, rather than held.
+    pub fn has_jerks(&self) -> bool {
+        !self.intervals[0].joint_jerks_rad_s3.is_empty()
+    }
+
+    /// Joint accelerations at node `k`, rad/s²: those with which its interval begins, and at the last node
+    /// those with which the last interval ends.
+    pub fn joint_accelerations_at(&self, k: usize) -> Vec<f64> {
+        match self.intervals.get(k) {
+            Some(interval) => interval.joint_accelerations_rad_s2.clone(),
+            None => {
+                let [.., before, last] = &self.nodes[..] else {
+                    unreachable!("two nodes at least")
+                };
+                let last_interval = &self.intervals[self.steps() - 1];
+                last_interval.joint_accelerations_after(last.time_s - before.time_s)
+            }
+        }
     }
 
     /// Number of intervals N.
@@ -142,6 +183,7 @@ mod tests {
     fn interval(joints: usize) -> ControlInterval {
         ControlInterval {
             joint_accelerations_rad_s2: vec![0.0; joints],
+            joint_jerks_rad_s3: Vec::new(),
             joint_torques_n_m: vec![0.0; joints],
         }
     }
@@ -158,5 +200,9 @@ mod tests {
             refused(vec![node(2), node(2)], vec![interval(1)]),
             "joint accelerations of interval 0"
         );
+        let jerked = ControlInterval { joint_jerks_rad_s3: vec![0.0; 2], ..interval(2) };
+        let nodes = || vec![node(2), node(2), node(2)];
+        assert!(Trajectory::new(nodes(), vec![jerked.clone(); 2]).unwrap().has_jerks());
+        assert_eq!(refused(nodes(), vec![jerked, interval(2)]), "joint jerks of interval 1");
     }
 }

@@ -16,8 +16,11 @@ const BASE_COLUMNS: [&str; 14] = [
     "wx_rad_s", "wy_rad_s", "wz_rad_s",
 ];
 
-/// The header of a trajectory with `joints` joints.
-pub fn header(joints: usize) -> Vec<String> {
+/// The first of the columns that a trajectory with jerks has beside those of any other.
+const FIRST_JERK: &str = "j1_rad_s3";
+
+/// The header of a trajectory with `joints` joints; `with_jerks` adds the columns of their jerks.
+pub fn header(joints: usize, with_jerks: bool) -> Vec<String> {
     let per_joint = |prefix: &'static str, unit: &'static str| {
         (1..=joints).map(move |i| format!("{prefix}{i}_{unit}"))
     };
@@ -29,6 +32,7 @@ pub fn header(joints: usize) -> Vec<String> {
         .chain(per_joint("u", "rad_s2"))
         .chain(per_joint("tau", "n_m"))
         .chain(std::iter::once("power_w".to_owned()))
+        .chain(per_joint("j", "rad_s3").take(if with_jerks { joints } else { 0 }))
         .collect()
 }
 
@@ -41,12 +45,12 @@ impl Trajectory {
         file_io::replace(file, |writer| self.print_csv(writer))
     }
 
-    /// Prints the table: the u and tau cells of the last row are empty.
+    /// Prints the table: the u, tau and j cells of the last row are empty.
     ///
     /// # Errors
     /// Those of the writer.
     pub fn print_csv(&self, writer: &mut dyn Write) -> io::Result<()> {
-        writeln!(writer, "{}", header(self.joints()).join(","))?;
+        writeln!(writer, "{}", header(self.joints(), self.has_jerks()).join(","))?;
         for (k, node) in self.nodes().iter().enumerate() {
             write!(writer, "{:.16e}", node.time_s)?;
             let base = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
@@ -65,7 +69,17 @@ impl Trajectory {
                 }
                 None => write!(writer, "{}", ",".repeat(2 * self.joints()))?,
             }
-            writeln!(writer, ",{:.16e}", node.power_w)?;
+            write!(writer, ",{:.16e}", node.power_w)?;
+            match self.intervals().get(k) {
+                Some(interval) => {
+                    for jerk in &interval.joint_jerks_rad_s3 {
+                        write!(writer, ",{jerk:.16e}")?;
+                    }
+                }
+                None if self.has_jerks() => write!(writer, "{}", ",".repeat(self.joints()))?,
+                None => {}
+            }
+            writeln!(writer)?;
         }
         Ok(())
     }
@@ -94,10 +108,15 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
     let Some((head, body)) = rows.split_first() else {
         return Err(wrong(1, &"an empty file", &"a header and rows"));
     };
-    let joints = head.len().saturating_sub(BASE_COLUMNS.len() + 1) / 4;
-    let names = header(joints);
+    let has_jerks = head.iter().any(|name| name == FIRST_JERK);
+    let columns_a_joint = if has_jerks { 5 } else { 4 };
+    let joints = head.len().saturating_sub(BASE_COLUMNS.len() + 1) / columns_a_joint;
+    let names = header(joints, has_jerks);
     if joints == 0 || head.len() != names.len() {
-        let expected = "14 columns, 4 for each joint and power_w";
+        let expected = match has_jerks {
+            true => "14 columns, 5 for each joint and power_w",
+            false => "14 columns, 4 for each joint and power_w",
+        };
         return Err(wrong(1, &format_args!("{} columns", head.len()), &expected));
     }
     if let Some((found, name)) = head.iter().zip(&names).find(|(found, name)| found != name) {
@@ -131,11 +150,17 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
         } else {
             intervals.push(ControlInterval {
                 joint_accelerations_rad_s2: row.several(joints)?,
+                joint_jerks_rad_s3: Vec::new(),
                 joint_torques_n_m: row.several(joints)?,
             });
         }
         node.power_w = row.number()?;
         nodes.push(node);
+        match intervals.last_mut() {
+            _ if !has_jerks => {}
+            Some(interval) if !last => interval.joint_jerks_rad_s3 = row.several(joints)?,
+            _ => row.empty(joints)?,
+        }
     }
     Ok(Trajectory::new(nodes, intervals)?)
 }

@@ -7,7 +7,7 @@ use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::Error;
 
 /// A trajectory of awkward numbers: every bit pattern of a finite double is fair.
-fn awkward(joints: usize, steps: usize) -> Trajectory {
+fn awkward(joints: usize, steps: usize, with_jerks: bool) -> Trajectory {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut number = || loop {
         state ^= state << 13;
@@ -34,6 +34,7 @@ fn awkward(joints: usize, steps: usize) -> Trajectory {
     let intervals = (0..steps)
         .map(|_| ControlInterval {
             joint_accelerations_rad_s2: several(joints),
+            joint_jerks_rad_s3: several(if with_jerks { joints } else { 0 }),
             joint_torques_n_m: several(joints),
         })
         .collect();
@@ -50,7 +51,9 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
         arrays.into_iter().chain(rest).flatten().copied().chain(scalars).collect::<Vec<_>>()
     });
     let intervals = trajectory.intervals().iter().flat_map(|interval| {
-        [&interval.joint_accelerations_rad_s2[..], &interval.joint_torques_n_m].concat()
+        let ControlInterval { joint_accelerations_rad_s2, joint_jerks_rad_s3, joint_torques_n_m } =
+            interval;
+        [&joint_accelerations_rad_s2[..], joint_jerks_rad_s3, joint_torques_n_m].concat()
     });
     nodes.chain(intervals).map(f64::to_bits).collect()
 }
@@ -58,7 +61,7 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
 #[test]
 fn the_header_is_the_contract() {
     let mut text = Vec::new();
-    awkward(2, 1).print_csv(&mut text).unwrap();
+    awkward(2, 1, false).print_csv(&mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
@@ -76,14 +79,30 @@ fn the_header_is_the_contract() {
 }
 
 #[test]
+fn jerks_stand_after_all_other_columns() {
+    let mut text = Vec::new();
+    awkward(2, 1, true).print_csv(&mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].ends_with(",tau2_n_m,power_w,j1_rad_s3,j2_rad_s3"), "{}", lines[0]);
+    assert!(lines[1].split(',').all(|cell| cell.parse::<f64>().is_ok()));
+    assert!(lines[2].ends_with(",,"), "{}", lines[2]);
+    assert!(refusal(&text.replace(",j2_rad_s3", "")).contains("found 24 columns, expected 14"));
+    let full = text.trim_end().strip_suffix(",,").unwrap().to_owned() + ",0,";
+    assert!(refusal(&full).starts_with("line 3, column j1_rad_s3: found `0`, expected an empty"));
+}
+
+#[test]
 fn a_table_is_read_back_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     for (joints, steps) in [(1, 1), (2, 7), (7, 600)] {
-        let file = folder.path().join("trajectory.csv");
-        let trajectory = awkward(joints, steps);
-        trajectory.write_csv(&file).unwrap();
-        let read = Trajectory::read_csv(&file).unwrap();
-        assert_eq!(bits(&read), bits(&trajectory));
+        for with_jerks in [false, true] {
+            let file = folder.path().join("trajectory.csv");
+            let trajectory = awkward(joints, steps, with_jerks);
+            trajectory.write_csv(&file).unwrap();
+            let read = Trajectory::read_csv(&file).unwrap();
+            assert_eq!(bits(&read), bits(&trajectory));
+        }
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "temporary files are gone");
 }
@@ -100,7 +119,7 @@ fn refusal(text: &str) -> String {
 #[test]
 fn damaged_tables_are_refused_with_the_place() {
     let mut good = Vec::new();
-    awkward(1, 2).print_csv(&mut good).unwrap();
+    awkward(1, 2, false).print_csv(&mut good).unwrap();
     let good = String::from_utf8(good).unwrap();
     let rows: Vec<&str> = good.lines().collect();
 
@@ -131,6 +150,6 @@ fn files_that_cannot_be_opened_or_written_are_named() {
     assert!(matches!(Trajectory::read_csv(&missing), Err(Error::Read { .. })));
     assert!(matches!(Trajectory::read_csv(folder.path()), Err(Error::Directory { .. })));
     let nowhere = Path::new("no-such-folder/trajectory.csv");
-    let message = awkward(1, 1).write_csv(nowhere).unwrap_err().to_string();
+    let message = awkward(1, 1, false).write_csv(nowhere).unwrap_err().to_string();
     assert_eq!(message, "no-such-folder/trajectory.csv: cannot be written: no such file");
 }

@@ -488,6 +488,11 @@ pub struct Link {
     /// Largest joint acceleration in magnitude, deg/s².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub acceleration_max_deg_s2: f64,
+    /// Largest jerk in magnitude, deg/s³; none by default. Where a joint has one, the accelerations of all
+    /// joints are continuous, linear between nodes, and zero at both ends of the maneuver.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub jerk_max_deg_s3: Option<f64>,
     /// Largest torque of the joint's drive at the joint in magnitude, friction and rotor included, N m; none
     /// by default. Of a locked joint the torque that holds it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

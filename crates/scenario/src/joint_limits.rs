@@ -11,6 +11,7 @@ const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
 // Of a clock that runs a hundred times slower, too.
 pub(crate) const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
 const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 3.6e9);
+const JERK_DEG_S3: Bounds = Bounds::Above(0.0, 3.6e12);
 
 /// What a joint can do. One whose smallest angle is its largest is locked: it holds that angle,
 /// whatever its rate and acceleration could be.
@@ -24,6 +25,8 @@ pub struct JointLimits {
     pub rate_max_rad_s: f64,
     /// Largest acceleration in magnitude, rad/s².
     pub acceleration_max_rad_s2: f64,
+    /// Largest jerk in magnitude, rad/s³; +∞ if there is no limit.
+    pub jerk_max_rad_s3: f64,
     /// Largest torque of the motor in magnitude, N m; +∞ if there is no limit.
     pub torque_max_n_m: f64,
 }
@@ -44,6 +47,9 @@ impl JointLimits {
         place.key("rate_max_deg_s").within(row.rate_max_deg_s, RATE_DEG_S)?;
         let acceleration_place = place.key("acceleration_max_deg_s2");
         acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        if let Some(jerk_deg_s3) = row.jerk_max_deg_s3 {
+            place.key("jerk_max_deg_s3").within(jerk_deg_s3, JERK_DEG_S3)?;
+        }
         if let Some(torque_n_m) = row.torque_max_n_m {
             place.key("torque_max_n_m").within(torque_n_m, LOAD)?;
         }
@@ -58,6 +64,7 @@ impl JointLimits {
             angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
             rate_max_rad_s: row.rate_max_deg_s.to_radians(),
             acceleration_max_rad_s2: row.acceleration_max_deg_s2.to_radians(),
+            jerk_max_rad_s3: row.jerk_max_deg_s3.map_or(f64::INFINITY, f64::to_radians),
             torque_max_n_m: row.torque_max_n_m.unwrap_or(f64::INFINITY),
         }
     }

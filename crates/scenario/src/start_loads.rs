@@ -48,7 +48,7 @@ pub(crate) fn check(
 }
 
 /// The least torque in magnitude that a joint can need at the start: torques are affine in the joints'
-/// accelerations, each of which may be anything within its limits.
+/// accelerations, each of which may be anything within its limits; with limited jerks they start at zero.
 fn least_torque_n_m(system: &SystemDescription, initial: &Initial, joint: usize) -> f64 {
     let model: &System = &system.model;
     let mut accelerations = vec![0.0; system.joint_count()];
@@ -65,7 +65,7 @@ fn least_torque_n_m(system: &SystemDescription, initial: &Initial, joint: usize)
     let coasting = torque(&accelerations);
     let mut reach = 0.0;
     for (other, limits) in system.joint_limits.iter().enumerate() {
-        if !limits.is_locked() {
+        if !limits.is_locked() && !system.limits_jerk() {
             accelerations[other] = 1.0;
             reach += (torque(&accelerations) - coasting).abs() * limits.acceleration_max_rad_s2;
             accelerations[other] = 0.0;

@@ -71,6 +71,11 @@ impl SystemDescription {
         self.joint_limits.len()
     }
 
+    /// Whether a joint's jerk is limited: then accelerations are continuous, and jerks the controls.
+    pub fn limits_jerk(&self) -> bool {
+        self.joint_limits.iter().any(|limits| limits.jerk_max_rad_s3.is_finite())
+    }
+
     /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
     /// limits ranges over one turn.
     pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {

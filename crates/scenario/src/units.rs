@@ -40,6 +40,7 @@ impl SystemDescription {
         let limits = self.joint_limits.iter().map(|limits| JointLimits {
             rate_max_rad_s: limits.rate_max_rad_s * units.time_s,
             acceleration_max_rad_s2: limits.acceleration_max_rad_s2 * units.time_s.powi(2),
+            jerk_max_rad_s3: limits.jerk_max_rad_s3 * units.time_s.powi(3),
             torque_max_n_m: limits.torque_max_n_m / units.torque_n_m(),
             ..*limits
         });

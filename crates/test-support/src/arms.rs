@@ -59,6 +59,7 @@ fn link() -> impl Strategy<Value = file::Link> {
                 angle_max_deg: None,
                 rate_max_deg_s: 1000.0,
                 acceleration_max_deg_s2: 1000.0,
+                jerk_max_deg_s3: None,
                 torque_max_n_m: None,
                 drive: None,
                 body_exempt: false,

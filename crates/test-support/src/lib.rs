@@ -101,12 +101,46 @@ pub fn motion_by(
     scenario: &Scenario,
     controls: &[Vec<f64>],
 ) -> Trajectory {
+    let held = |step: usize, _| controls[step].clone();
+    let states = states_by(equations, scenario, controls.len(), held);
+    trajectory_of(equations, scenario, controls, &states)
+}
+
+/// The motion that follows from the scenario's start, with joint accelerations of zero there, and `jerks`
+/// held over the steps, by the planner's model.
+pub fn motion_of_jerks(scenario: &Scenario, jerks: &[Vec<f64>]) -> Trajectory {
+    let step_s = scenario.horizon().step_s();
+    let after = |u: &[f64], jerk: &[f64], after_s: f64| -> Vec<f64> {
+        u.iter().zip(jerk).map(|(u, jerk)| u + after_s * jerk).collect()
+    };
+    let mut accelerations = vec![vec![0.0; scenario.system().joint_count()]];
+    for jerk in jerks {
+        accelerations.push(after(&accelerations[accelerations.len() - 1], jerk, step_s));
+    }
+    let equations = &scenario.system().model;
+    let linear = |step: usize, after_s| after(&accelerations[step], &jerks[step], after_s);
+    let states = states_by(equations, scenario, jerks.len(), linear);
+    let held = trajectory_of(equations, scenario, &accelerations, &states);
+    tampered(&held, |_, intervals| {
+        for (interval, jerk) in intervals.iter_mut().zip(jerks) {
+            interval.joint_jerks_rad_s3.clone_from(jerk);
+        }
+    })
+}
+
+/// The states at the nodes for joint accelerations that are a function of the step and of the time within.
+fn states_by(
+    equations: &impl Equations,
+    scenario: &Scenario,
+    steps: usize,
+    accelerations: impl Fn(usize, f64) -> Vec<f64>,
+) -> Vec<State<f64>> {
     let step_s = scenario.horizon().step_s();
     let mut states = vec![scenario.initial().state()];
-    for control in controls {
-        let x = states[states.len() - 1].to_vec();
-        let rate = |_: f64, x: &Vec<f64>, rate: &mut Vec<f64>| {
-            rate.copy_from_slice(&equations.state_derivative(x, control));
+    for step in 0..steps {
+        let x = states[step].to_vec();
+        let rate = |after_s: f64, x: &Vec<f64>, rate: &mut Vec<f64>| {
+            rate.copy_from_slice(&equations.state_derivative(x, &accelerations(step, after_s)));
         };
         let solution = IVP::ode_from_fn(rate, 0.0, step_s, x)
             .method(ExplicitRungeKutta::dop853().rtol(1e-13).atol(1e-13))
@@ -114,10 +148,11 @@ pub fn motion_by(
             .unwrap();
         states.push(State::from_slice(&solution.y[solution.y.len() - 1]).unwrap());
     }
-    trajectory_of(equations, scenario, controls, &states)
+    states
 }
 
-/// The states at the nodes with the torques and the power that `equations` say.
+/// The states at the nodes with the torques and the power that `equations` say, for the controls of every step,
+/// and the accelerations of the last node if there is one more.
 pub fn trajectory_of(
     equations: &impl Equations,
     scenario: &Scenario,
@@ -137,11 +172,12 @@ pub fn trajectory_of(
         joint_rates_rad_s: state.joint_rates.clone(),
         power_w: torques(k, state).iter().zip(&state.joint_rates).map(|(t, rate)| t * rate).sum(),
     });
-    let intervals =
-        controls.iter().zip(states).enumerate().map(|(k, (control, state))| ControlInterval {
-            joint_accelerations_rad_s2: control.clone(),
-            joint_torques_n_m: torques(k, state),
-        });
+    let steps = controls.iter().zip(states).take(states.len() - 1);
+    let intervals = steps.enumerate().map(|(k, (control, state))| ControlInterval {
+        joint_accelerations_rad_s2: control.clone(),
+        joint_jerks_rad_s3: Vec::new(),
+        joint_torques_n_m: torques(k, state),
+    });
     Trajectory::new(nodes.collect(), intervals.collect()).unwrap()
 }
 

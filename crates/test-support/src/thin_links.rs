@@ -18,6 +18,7 @@ pub fn thin_link(mass_kg: f64, a_m: f64, alpha_deg: f64, limits: [f64; 2]) -> Li
         angle_max_deg: None,
         rate_max_deg_s,
         acceleration_max_deg_s2,
+        jerk_max_deg_s3: None,
         torque_max_n_m: None,
         drive: None,
         body_exempt: false,

@@ -45,6 +45,8 @@ impl Units {
             link.d_m *= length;
             link.rate_max_deg_s /= time;
             link.acceleration_max_deg_s2 /= time * time;
+            link.jerk_max_deg_s3 =
+                link.jerk_max_deg_s3.map(|jerk_deg_s3| jerk_deg_s3 / time.powi(3));
             link.torque_max_n_m = link.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
             if let Some(drive) = &mut link.drive {
                 drive.viscous_friction_n_m_s =

@@ -13,7 +13,7 @@
 //! Where neither is enough, the stretch is halved.
 
 use crate::clearances::{Inner, Pair, Situation};
-use crate::joints::Joints;
+use crate::joints::{Accelerations, Joints};
 use crate::ledger::{Subject, Worst};
 use crate::model::{Pose, State};
 use crate::motion_bound::Stretch;
@@ -29,8 +29,9 @@ const MOST_LOOKS: usize = 200_000;
 pub(super) struct ClosestApproach<'a> {
     asked: &'a Requirements,
     joints: Joints,
-    /// Largest rates in a stretch.
+    /// Largest rates and accelerations in a stretch.
     rates: Vec<f64>,
+    accelerations: Vec<f64>,
     /// The arm's frames at the beginning of the interval, at its end, and within.
     start: Vec<Pose>,
     end: Vec<Pose>,
@@ -38,12 +39,12 @@ pub(super) struct ClosestApproach<'a> {
     looks_left: usize,
 }
 
-/// An interval with constant joint accelerations.
+/// An interval between two nodes.
 #[derive(Clone, Copy)]
 pub(super) struct Interval<'i> {
     pub start: State<'i>,
     pub end: State<'i>,
-    pub accelerations: &'i [f64],
+    pub accelerations: Accelerations<'i>,
     pub start_s: f64,
     pub duration_s: f64,
 }
@@ -66,6 +67,7 @@ impl<'a> ClosestApproach<'a> {
             asked,
             joints: Joints::new(joints),
             rates: vec![0.0; joints],
+            accelerations: vec![0.0; joints],
             start: frames.clone(),
             end: frames.clone(),
             within: frames,
@@ -133,16 +135,25 @@ impl<'a> ClosestApproach<'a> {
         after: &Moment,
         enough_m: f64,
     ) -> f64 {
-        let joints = interval.start.joint_rates.iter().zip(interval.accelerations);
-        for (largest, (rate, acceleration)) in self.rates.iter_mut().zip(joints) {
-            let at = |after_s: f64| (rate + acceleration * after_s).abs();
-            *largest = at(before.after_s).max(at(after.after_s));
+        let ends = [before.after_s, after.after_s];
+        let duration_s = after.after_s - before.after_s;
+        let accelerations = interval.accelerations;
+        for (joint, rate) in interval.start.joint_rates.iter().enumerate() {
+            let jerk = accelerations.jerk(joint);
+            let at = |after_s: f64| {
+                let gained = accelerations.at(joint, 0.0) * after_s;
+                (rate + gained + 0.5 * jerk * after_s * after_s).abs()
+            };
+            // Between the ends a parabola is off its chord by |q⃛| Δt²/8 at most.
+            let bulge = jerk.abs() * duration_s * duration_s / 8.0;
+            self.rates[joint] = at(before.after_s).max(at(after.after_s)) + bulge;
+            self.accelerations[joint] = accelerations.largest(joint, ends);
         }
         let stretch = Stretch {
             reach: &self.asked.reach,
             rates: &self.rates,
-            accelerations: interval.accelerations,
-            duration_s: after.after_s - before.after_s,
+            accelerations: &self.accelerations,
+            duration_s,
         };
         let (inboard, outboard) = match pair.inner {
             Inner::Segment(_) | Inner::Cuboid(_) => (None, pair.outer),

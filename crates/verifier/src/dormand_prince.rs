@@ -18,6 +18,9 @@ const STAGES: [&[f64]; 6] = [
     &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 
+/// When each of these stages is, as a share of the step.
+const STAGE_TIMES: [f64; 6] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
+
 /// Fifth-order minus fourth-order weights.
 const ERROR: [f64; 7] = [
     71.0 / 57600.0,
@@ -29,7 +32,7 @@ const ERROR: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-/// An integrator of one autonomous system, with the step size that fitted last. Allocates nothing
+/// An integrator of one system, with the step size that fitted last. Allocates nothing
 /// while it integrates.
 pub struct DormandPrince {
     step: f64,
@@ -46,23 +49,25 @@ impl DormandPrince {
         Self { step: f64::INFINITY, rates: std::array::from_fn(|_| zeros()), next: zeros() }
     }
 
-    /// Carries `x` over `duration` by ẋ = `rate(x)`, which is written into its second argument.
-    /// Returns whether it could: not if the motion is too wild to follow or not finite.
+    /// Carries `x` over `duration` by ẋ = `rate(t, x)`, which is written into its third argument; t is zero
+    /// where it begins. Returns whether it could: not if the motion is too wild to follow or not finite.
     pub fn advance(
         &mut self,
         x: &mut [f64],
         duration: f64,
-        mut rate: impl FnMut(&[f64], &mut [f64]),
+        mut rate: impl FnMut(f64, &[f64], &mut [f64]),
     ) -> bool {
-        rate(x, &mut self.rates[0]);
+        rate(0.0, x, &mut self.rates[0]);
         let mut left = duration;
         for _ in 0..MAX_STEPS {
             let last = self.step >= left;
             let step = if last { left } else { self.step };
             // The last stage is evaluated at the fifth-order result, which starts the next step.
+            let time = duration - left;
             for (stage, coefficients) in STAGES.iter().enumerate() {
                 self.move_from(x, step, coefficients);
-                rate(&self.next, &mut self.rates[stage + 1]);
+                let time = time + STAGE_TIMES[stage] * step;
+                rate(time, &self.next, &mut self.rates[stage + 1]);
             }
             let error = self.error_norm(x, step);
             if !error.is_finite() {
@@ -118,7 +123,7 @@ mod tests {
 
     #[test]
     fn follows_an_oscillator_and_an_orbit_to_the_tolerance() {
-        let oscillator = |x: &[f64], rate: &mut [f64]| {
+        let oscillator = |_: f64, x: &[f64], rate: &mut [f64]| {
             rate.copy_from_slice(&[x[1], -25.0 * x[0]]);
         };
         let mut integrator = DormandPrince::new(2);
@@ -130,7 +135,7 @@ mod tests {
         }
 
         // Kepler's problem, eccentricity 0.5, one revolution.
-        let orbit = |x: &[f64], rate: &mut [f64]| {
+        let orbit = |_: f64, x: &[f64], rate: &mut [f64]| {
             let cubed = (x[0] * x[0] + x[1] * x[1]).powf(1.5);
             rate.copy_from_slice(&[x[2], x[3], -x[0] / cubed, -x[1] / cubed]);
         };
@@ -142,9 +147,19 @@ mod tests {
         }
     }
 
+    /// ẋ = x + sin t from 1 is (3 eᵗ − sin t − cos t)/2.
+    #[test]
+    fn a_rate_may_depend_on_time() {
+        let mut x = [1.0];
+        let forced = |t: f64, x: &[f64], rate: &mut [f64]| rate[0] = x[0] + t.sin();
+        assert!(DormandPrince::new(1).advance(&mut x, 2.0, forced));
+        let expected = 0.5 * (3.0 * 2.0_f64.exp() - 2.0_f64.sin() - 2.0_f64.cos());
+        assert!((x[0] - expected).abs() < 1e-9, "{} {expected}", x[0]);
+    }
+
     #[test]
     fn wild_motion_is_given_up() {
-        let explosion = |x: &[f64], rate: &mut [f64]| rate[0] = x[0] * x[0];
+        let explosion = |_: f64, x: &[f64], rate: &mut [f64]| rate[0] = x[0] * x[0];
         assert!(!DormandPrince::new(1).advance(&mut [1.0], 2.0, explosion));
         assert!(!DormandPrince::new(1).advance(&mut [f64::NAN], 1.0, explosion));
     }

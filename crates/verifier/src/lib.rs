@@ -13,7 +13,7 @@
 //!
 //! Tolerances are part of every [`Check`](righting_results::Check) and so of every report:
 //!
-//! - limits hold to 1e-6 (rad, rad/s, rad/s², m) at the nodes; between nodes joint angles and
+//! - limits hold to 1e-6 (rad, rad/s, rad/s², rad/s³, m) at the nodes; between nodes joint angles and
 //!   clearances to 1e-3. Clearances are looked at as closely as the motion asks for: nothing is
 //!   missed between two places, however fast two links pass each other;
 //! - boresights stay on their side of their cones to 1e-4 rad at the nodes, as far as the attitude may be off,
@@ -21,6 +21,8 @@
 //! - the plan's own integration error, one step of a fourth-order method an interval, may reach
 //!   1e-4 rad in attitude, a twentieth of what a slew may miss its target by. In momentum that is
 //!   1e-4 of its size, in the quaternion's length 1e-5. A plan that fails here needs more steps;
+//! - where a joint's jerk is limited, accelerations jump by no more than 1e-6 rad/s² from one interval to the
+//!   next, and begin and end within that of zero;
 //! - joints follow from the controls exactly, so they may differ by what a solver leaves of its
 //!   equations: 1e-6 rad and rad/s. Where the posture at the end is given, they end there to 1e-4 rad.
 //!
@@ -46,6 +48,7 @@
 //! };
 //! let idle = ControlInterval {
 //!     joint_accelerations_rad_s2: vec![0.0; 2],
+//!     joint_jerks_rad_s3: Vec::new(),
 //!     joint_torques_n_m: vec![0.0; 2],
 //! };
 //! let trajectory = Trajectory::new((0..=steps).map(node).collect(), vec![idle; steps])?;
@@ -63,6 +66,7 @@ mod closest_approach;
 mod directory;
 mod dormand_prince;
 mod goal;
+mod jerk;
 mod joints;
 mod ledger;
 mod limits;

@@ -3,7 +3,7 @@
 use righting_results::trajectory::Trajectory;
 
 use crate::closest_approach::{ClosestApproach, Interval};
-use crate::joints::Joints;
+use crate::joints::{Accelerations, Joints};
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::model::Pose;
 use crate::requirements::Requirements;
@@ -56,27 +56,31 @@ pub(super) fn check(
     let mut approach = ClosestApproach::new(asked, &simulation.start());
     let states = simulation.nodes().zip(simulation.nodes().skip(1));
     for (k, (interval, (state, next))) in trajectory.intervals().iter().zip(states).enumerate() {
-        let control = &interval.joint_accelerations_rad_s2;
+        let accelerations = Accelerations::of(interval);
         let start_s = asked.horizon.time_s(k);
         let duration_s = asked.horizon.time_s(k + 1) - start_s;
-        for (joint, (limits, control)) in asked.joint_limits.iter().zip(control).enumerate() {
+        for (joint, limits) in asked.joint_limits.iter().enumerate() {
             let limit = limits.acceleration_max_rad_s2;
             let subject = Some(Subject::Joint(joint));
-            acceleration.at_most(control.abs(), limit, subject, Some(start_s));
+            let largest = accelerations.largest(joint, [0.0, duration_s]);
+            acceleration.at_most(largest, limit, subject, Some(start_s));
         }
         for after_s in sampled(duration_s) {
-            joints.move_on(&state, control, after_s);
+            joints.move_on(&state, accelerations, after_s);
             between.look(&joints.angles, &joints.rates, start_s + after_s);
         }
-        let interval =
-            Interval { start: state, end: next, accelerations: control, start_s, duration_s };
+        let interval = Interval { start: state, end: next, accelerations, start_s, duration_s };
         approach.follow(&interval, &mut between.body, &mut between.links);
+        let is_within = |after_s: &f64| *after_s > 0.0 && *after_s < duration_s;
         for (joint, rate) in state.joint_rates.iter().enumerate() {
             // A joint that turns back within the interval goes farthest between two samples.
-            let after_s = -rate / control[joint];
-            if after_s > 0.0 && after_s < duration_s {
-                joints.move_on(&state, control, after_s);
+            for after_s in accelerations.standstills(joint, *rate).filter(is_within) {
+                joints.move_on(&state, accelerations, after_s);
                 between.look_at_angle(joint, joints.angles[joint], start_s + after_s);
+            }
+            if let Some(after_s) = Some(accelerations.extreme_rate(joint)).filter(is_within) {
+                joints.move_on(&state, accelerations, after_s);
+                between.look_at_rate(joint, joints.rates[joint], start_s + after_s);
             }
         }
     }
@@ -114,17 +118,20 @@ impl<'a> Limits<'a> {
     }
 
     fn look(&mut self, angles_rad: &[f64], rates_rad_s: &[f64], time_s: f64) {
-        for (joint, limits) in self.asked.joint_limits.iter().enumerate() {
+        for joint in 0..self.asked.joint_limits.len() {
             self.look_at_angle(joint, angles_rad[joint], time_s);
-            let rate = rates_rad_s[joint].abs();
-            let subject = Some(Subject::Joint(joint));
-            self.rate.at_most(rate, limits.rate_max_rad_s, subject, Some(time_s));
+            self.look_at_rate(joint, rates_rad_s[joint], time_s);
         }
         let Requirements { model, clearances, .. } = self.asked;
         if !clearances.is_empty() {
             model.frames(angles_rad, &mut self.frames);
             clearances.look(&self.frames, time_s, &mut self.body, &mut self.links);
         }
+    }
+
+    fn look_at_rate(&mut self, joint: usize, rate_rad_s: f64, time_s: f64) {
+        let limit = self.asked.joint_limits[joint].rate_max_rad_s;
+        self.rate.at_most(rate_rad_s.abs(), limit, Some(Subject::Joint(joint)), Some(time_s));
     }
 
     fn look_at_angle(&mut self, joint: usize, angle_rad: f64, time_s: f64) {

@@ -8,6 +8,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
 use crate::dormand_prince::DormandPrince;
+use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::model::{Motion, State};
 use crate::requirements::Requirements;
@@ -108,23 +109,27 @@ pub(super) fn check(
     let mut worst = Loads::new(limits);
     let mut motion = Motion::new(model);
     let mut torques = vec![0.0; model.joint_count()];
+    let mut control = vec![0.0; model.joint_count()];
     let mut integrator = DormandPrince::new(asked.start.len());
     for (k, (interval, node)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate() {
-        let control = &interval.joint_accelerations_rad_s2;
+        let accelerations = Accelerations::of(interval);
         let start_s = asked.horizon.time_s(k);
         let part_s = (asked.horizon.time_s(k + 1) - start_s) / PARTS as f64;
         let mut x = node.to_vec();
         for part in 0..=PARTS {
             if part > 0 {
-                let followed = integrator.advance(&mut x, part_s, |x, rate| {
-                    model.state_derivative(x, control, &mut motion, rate);
+                let before_s = (part - 1) as f64 * part_s;
+                let followed = integrator.advance(&mut x, part_s, |after_s, x, rate| {
+                    accelerations.write(before_s + after_s, &mut control);
+                    model.state_derivative(x, &control, &mut motion, rate);
                 });
                 if !followed {
                     x.fill(f64::NAN);
                 }
             }
             let state = State::from_slice(&x);
-            let mount = model.joint_torques(&state, control, &mut motion, &mut torques);
+            accelerations.write(part as f64 * part_s, &mut control);
+            let mount = model.joint_torques(&state, &control, &mut motion, &mut torques);
             let time_s = Some(start_s + part as f64 * part_s);
             let of_joints = worst.torques.iter_mut().zip(&limits.torques_n_m).zip(&torques);
             for (joint, ((worst, limit), torque)) in of_joints.enumerate() {

@@ -51,7 +51,7 @@ pub(super) struct Stretch<'a> {
     pub reach: &'a Reach,
     /// Largest magnitude of each joint's rate, rad/s.
     pub rates: &'a [f64],
-    /// Of each joint, constant, rad/s².
+    /// Largest magnitude of each joint's acceleration, rad/s².
     pub accelerations: &'a [f64],
     pub duration_s: f64,
 }
@@ -71,7 +71,7 @@ impl Stretch<'_> {
     pub fn bend_m(&self, solid: usize) -> f64 {
         let reach = &self.reach.of_solids[solid];
         let weighted = |values: &[f64]| -> f64 {
-            values.iter().zip(reach).map(|(value, reach_m)| value.abs() * reach_m).sum()
+            values.iter().zip(reach).map(|(value, reach_m)| value * reach_m).sum()
         };
         let turning: f64 = self.rates.iter().take(reach.len()).sum();
         let acceleration = weighted(self.accelerations) + turning * weighted(self.rates);

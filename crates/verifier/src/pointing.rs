@@ -11,6 +11,7 @@ use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
 use crate::dormand_prince::DormandPrince;
+use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Worst};
 use crate::model::{Motion, State};
 use crate::requirements::Requirements;
@@ -150,8 +151,8 @@ pub(super) fn check(
         for (k, (interval, ends)) in trajectory.intervals().iter().zip(states).enumerate() {
             let start_s = asked.horizon.time_s(k);
             let duration_s = asked.horizon.time_s(k + 1) - start_s;
-            let control = &interval.joint_accelerations_rad_s2;
-            follower.follow(cone, ends, control, [start_s, duration_s], &mut between);
+            let accelerations = Accelerations::of(interval);
+            follower.follow(cone, ends, accelerations, [start_s, duration_s], &mut between);
         }
         ledger.add_of(at_nodes, &cone.name);
         ledger.add_of(between, &cone.name);
@@ -163,19 +164,21 @@ struct Follower<'a> {
     asked: &'a Requirements,
     motion: Motion,
     integrator: DormandPrince,
+    control: Vec<f64>,
 }
 
 impl<'a> Follower<'a> {
     fn new(asked: &'a Requirements) -> Self {
         let integrator = DormandPrince::new(asked.start.len());
-        Self { asked, motion: Motion::new(&asked.model), integrator }
+        let control = vec![0.0; asked.model.joint_count()];
+        Self { asked, motion: Motion::new(&asked.model), integrator, control }
     }
 
     fn follow(
         &mut self,
         cone: &Cone,
         (start, end): (State<'_>, State<'_>),
-        control: &[f64],
+        accelerations: Accelerations<'_>,
         [start_s, duration_s]: [f64; 2],
         worst: &mut Worst,
     ) {
@@ -189,11 +192,13 @@ impl<'a> Follower<'a> {
         // A turn that is too large, or no number, is cut.
         let parts = ((turn_rad / TURN_RAD).ceil() as usize).clamp(1, MOST_PARTS);
         let part_s = duration_s / parts as f64;
-        let Self { asked, motion, integrator } = self;
+        let Self { asked, motion, integrator, control } = self;
         let mut x = start.to_vec();
         let (mut angle, mut rate) = (angles[0], start.angular_rate.norm());
         for part in 0..parts {
-            let is_followed = integrator.advance(&mut x, part_s, |x, derivative| {
+            let before_s = part as f64 * part_s;
+            let is_followed = integrator.advance(&mut x, part_s, |after_s, x, derivative| {
+                accelerations.write(before_s + after_s, control);
                 asked.model.state_derivative(x, control, motion, derivative);
             });
             if !is_followed {

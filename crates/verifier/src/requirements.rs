@@ -43,6 +43,8 @@ pub(super) struct JointLimits {
     pub rate_max_rad_s: f64,
     /// In magnitude.
     pub acceleration_max_rad_s2: f64,
+    /// In magnitude.
+    pub jerk_max_rad_s3: Option<f64>,
 }
 
 impl Requirements {
@@ -91,6 +93,7 @@ impl JointLimits {
             angle_max_rad: link.angle_max_deg.map(f64::to_radians),
             rate_max_rad_s: link.rate_max_deg_s.to_radians(),
             acceleration_max_rad_s2: link.acceleration_max_deg_s2.to_radians(),
+            jerk_max_rad_s3: link.jerk_max_deg_s3.map(f64::to_radians),
         }
     }
 }

@@ -4,6 +4,7 @@ use righting_results::trajectory::ControlInterval;
 use righting_scenario::scenario::Horizon;
 
 use crate::dormand_prince::DormandPrince;
+use crate::joints::Accelerations;
 use crate::model::{Model, Motion, State};
 
 /// The motion that controls lead to, at every node.
@@ -25,14 +26,16 @@ impl Simulation {
     ) -> Self {
         let mut motion = Motion::new(model);
         let mut integrator = DormandPrince::new(start.len());
+        let mut control = vec![0.0; model.joint_count()];
         let mut x = start.to_vec();
         let mut states = Vec::with_capacity(start.len() * (intervals.len() + 1));
         states.extend(&x);
         for (k, interval) in intervals.iter().enumerate() {
             let duration_s = horizon.time_s(k + 1) - horizon.time_s(k);
-            let control = &interval.joint_accelerations_rad_s2;
-            let followed = integrator.advance(&mut x, duration_s, |x, rate| {
-                model.state_derivative(x, control, &mut motion, rate);
+            let accelerations = Accelerations::of(interval);
+            let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
+                accelerations.write(after_s, &mut control);
+                model.state_derivative(x, &control, &mut motion, rate);
             });
             if !followed {
                 x.fill(f64::NAN);

@@ -13,7 +13,7 @@ const VELOCITY: f64 = 1e-4;
 const JOINT_RAD: f64 = 1e-6;
 const TIME: f64 = 1e-9;
 
-/// How far a node may be past a limit (rad, rad/s, rad/s², lengths of the system).
+/// How far a node may be past a limit (rad, rad/s, rad/s², rad/s³, lengths of the system).
 const AT_NODES: f64 = 1e-6;
 /// How far the motion between nodes may be past a limit (rad, rad/s).
 const BETWEEN_NODES: f64 = 1e-3;
@@ -61,6 +61,7 @@ pub(super) struct LimitTolerances {
     pub angle_rad: f64,
     pub rate_rad_s: f64,
     pub acceleration_rad_s2: f64,
+    pub jerk_rad_s3: f64,
     pub distance_m: f64,
 }
 
@@ -76,6 +77,7 @@ impl Tolerances {
             angle_rad: tolerance,
             rate_rad_s: tolerance * per_s,
             acceleration_rad_s2: tolerance * per_s.powi(2),
+            jerk_rad_s3: tolerance * per_s.powi(3),
             distance_m,
         };
         let touching_m = AT_NODES * size_m;

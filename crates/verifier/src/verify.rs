@@ -7,6 +7,7 @@ use righting_results::verification::Verification;
 use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::goal::Goal;
+use crate::jerk;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::limits;
 use crate::loads;
@@ -49,6 +50,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     check_momentum(&asked, trajectory, &mut ledger);
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
+    jerk::check(&asked, trajectory, &mut ledger);
     loads::check(&asked, trajectory, &simulation, &mut ledger);
     pointing::check(&asked, trajectory, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
@@ -193,9 +195,8 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
     for (k, (node, torques)) in
         trajectory.nodes().iter().zip(torques.chunks_exact_mut(joints)).enumerate()
     {
-        let interval = &trajectory.intervals()[k.min(trajectory.steps() - 1)];
-        let control = &interval.joint_accelerations_rad_s2;
-        model.joint_torques(&State::of_node(node), control, &mut motion, torques);
+        let control = trajectory.joint_accelerations_at(k);
+        model.joint_torques(&State::of_node(node), &control, &mut motion, torques);
     }
     let largest = |values: &mut dyn Iterator<Item = &f64>| {
         values.fold(0.0, |largest: f64, value| largest.max(value.abs()))

@@ -2,10 +2,10 @@
 """Fly a plan of Righting in Basilisk by its torques alone; nothing corrects them.
 
 Written by `righting export --format basilisk`; needs `bsk` and `numpy`. Within a step of the plan the joint
-accelerations are constant and the torques are polynomials of degree six. Basilisk reads motor torques once a
-step of its own. So every two steps get two torques with the polynomial's impulse and its moment in time: they move
-the joints as the polynomial does. Printed are how far the end is from the plan's, and how far the largest torque of
-each joint is from what Basilisk's own equations need there for the plan's accelerations.
+accelerations are constant or linear and the torques are polynomials of degree six. Basilisk reads motor torques
+once a step of its own. So every two steps get two torques with the polynomial's impulse and its moment in time:
+they move the joints as the polynomial does. Printed are how far the end is from the plan's, and how far the
+largest torque of each joint is from what Basilisk's own equations need there for the plan's accelerations.
 
 Some motions are unstable: an error of the joints grows until they leave the plan, however exact the torques are.
 With --track the joints are held to the plan, and what that takes is printed as well.
@@ -151,8 +151,9 @@ def torques_of_powers(substeps):
 
 def planned(step, time_s):
     """Angles and rates of the joints in a step of the plan."""
-    rates = RATES[step] + time_s * ACCELERATIONS[step]
-    return ANGLES[step] + time_s * (RATES[step] + rates) / 2, rates
+    rates = RATES[step] + time_s * (ACCELERATIONS[step] + time_s * JERKS[step] / 2)
+    accelerations = ACCELERATIONS[step] + time_s * JERKS[step] / 3
+    return ANGLES[step] + time_s * (RATES[step] + time_s * accelerations / 2), rates
 
 
 def needed_at_peaks():

@@ -2,8 +2,8 @@
 """Fly a plan of Righting in MuJoCo by its torques alone; nothing corrects them.
 
 Written by `righting export --format mujoco`; needs `mujoco` and `numpy`. Within a step of the plan the joint
-accelerations are constant and the torques are polynomials of degree six. MuJoCo asks for them at every stage
-of its Runge-Kutta method. Printed are how far the end is from the plan's, and how far the largest torque of
+accelerations are constant or linear and the torques are polynomials of degree six. MuJoCo asks for them at every
+stage of its Runge-Kutta method. Printed are how far the end is from the plan's, and how far the largest torque of
 each joint is from the largest that MuJoCo's own equations need for the plan's accelerations along the flight.
 
 Some motions are unstable: an error of the joints grows until they leave the plan, however exact the torques are.
@@ -86,5 +86,6 @@ def reduced(model, data):
 
 def planned(step, time_s):
     """Angles and rates of the joints in a step of the plan."""
-    rates = RATES[step] + time_s * ACCELERATIONS[step]
-    return ANGLES[step] + time_s * (RATES[step] + rates) / 2, rates
+    rates = RATES[step] + time_s * (ACCELERATIONS[step] + time_s * JERKS[step] / 2)
+    accelerations = ACCELERATIONS[step] + time_s * JERKS[step] / 3
+    return ANGLES[step] + time_s * (RATES[step] + time_s * accelerations / 2), rates

@@ -41,6 +41,12 @@ impl Constants {
         constants.array("RATES", &[steps + 1, joints], rates);
         let accelerations = intervals.iter().map(|interval| &interval.joint_accelerations_rad_s2);
         constants.array("ACCELERATIONS", &[steps, joints], flight.motions(accelerations));
+        let still = vec![0.0; trajectory.joints()];
+        let jerks = intervals.iter().map(|interval| match trajectory.has_jerks() {
+            true => &interval.joint_jerks_rad_s3,
+            false => &still,
+        });
+        constants.array("JERKS", &[steps, joints], flight.motions(jerks));
         let torques = flight.torques(intervals.iter().map(|interval| &interval.joint_torques_n_m));
         constants.array("TORQUES", &[steps, joints], torques);
         let coefficients = flight.torque_coefficients.iter().copied();

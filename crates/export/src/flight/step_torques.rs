@@ -1,6 +1,6 @@
 //! The torques of a plan as functions of time.
 //!
-//! Joint accelerations are constant over a step; torques are not, nor are they told well enough by
+//! Joint accelerations are constant or linear over a step; torques are not, nor are they told well enough by
 //! interpolation between nodes: an open-loop flight may amplify an error of its torques by 1e10. The
 //! motion is therefore integrated once more, from the first node and the accelerations alone and with the
 //! momentum that the first node has, and torques are taken from it at Chebyshev's points of every step.
@@ -53,16 +53,17 @@ impl StepTorques {
         let mut coefficients = Vec::with_capacity(trajectory.steps());
         for (nodes, interval) in trajectory.nodes().windows(2).zip(trajectory.intervals()) {
             let half_s = (nodes[1].time_s - nodes[0].time_s) / 2.0;
-            let control = &interval.joint_accelerations_rad_s2;
+            let control = |after_s| interval.joint_accelerations_after(after_s);
             let mut of_joints = vec![Points::zeros(); joints];
             for (i, place) in places.iter().enumerate() {
                 if let Some(before) = i.checked_sub(1) {
                     let duration_s = (place - places[before]) * half_s;
-                    let followed = integrator.advance(&mut x, duration_s, |x, rate| {
+                    let before_s = (places[before] + 1.0) * half_s;
+                    let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
                         let (omega, attitude) = motion(x);
                         rate[..4].copy_from_slice(&attitude.rate(&omega).to_array());
                         rate[4..4 + joints].copy_from_slice(&x[4 + joints..]);
-                        rate[4 + joints..].copy_from_slice(control);
+                        rate[4 + joints..].copy_from_slice(&control(before_s + after_s));
                     });
                     if !followed {
                         return Err(ExportError::Motion { time_s: nodes[0].time_s });
@@ -70,7 +71,8 @@ impl StepTorques {
                 }
                 let omega = motion(&x).0;
                 let (angles, rates) = x[4..].split_at(joints);
-                let torques = model.joint_torques(&omega, angles, rates, control);
+                let control = control((place + 1.0) * half_s);
+                let torques = model.joint_torques(&omega, angles, rates, &control);
                 of_joints
                     .iter_mut()
                     .zip(torques)

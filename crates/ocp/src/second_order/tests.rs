@@ -16,7 +16,7 @@ const STEPS: usize = 10;
 /// and along every other direction it curves up more.
 fn pulled_away(pull: f64) -> ControlProblem {
     ControlProblem::new(1, 1, |_, u| vec![u[0]])
-        .running_cost(|_, u| u[0].powi(2))
+        .running_cost(|_, u, _| u[0].powi(2))
         .terminal_cost(move |x| x[0].powi(2) * -pull)
 }
 

@@ -81,7 +81,7 @@ impl righting_ipopt::LinearSolver for Failing {
 /// A pendulum that swings up and is held there, with little torque.
 fn pendulum() -> ControlProblem {
     ControlProblem::new(2, 1, |x, u| vec![x[1], u[0] - x[0].sin()])
-        .running_cost(|_, u| u[0].powi(2))
+        .running_cost(|_, u, _| u[0].powi(2))
         .control_bounds(ComponentBounds::symmetric(&[0.6]))
         .terminal_constraints(
             ComponentBounds::new(vec![std::f64::consts::PI, 0.0], vec![std::f64::consts::PI, 0.0]),

@@ -130,16 +130,13 @@ impl<'a> Approach<'a> {
 
     /// The most that points of both things are off their straight ways in a part of a step.
     fn bend(&self, step: &Step<'_>, place: usize, from: f64, to: f64) -> f64 {
-        let largest = |joint: usize| {
-            let at = |after: f64| (step.rates[joint] + after * step.accelerations[joint]).abs();
-            at(from).max(at(to))
-        };
         let of_thing = |reach: &Vec<f64>| {
             let mut sums = [0.0; 3];
             for (joint, reach) in reach.iter().enumerate() {
-                sums[0] += reach * step.accelerations[joint].abs();
-                sums[1] += largest(joint);
-                sums[2] += reach * largest(joint);
+                let rate = step.largest_rate(joint, [from, to]);
+                sums[0] += reach * step.largest_acceleration(joint, [from, to]);
+                sums[1] += rate;
+                sums[2] += reach * rate;
             }
             (sums[0] + sums[1] * sums[2]) * (to - from).powi(2) / 8.0
         };

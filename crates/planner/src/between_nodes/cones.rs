@@ -30,7 +30,7 @@ pub(crate) struct PassedCone {
     pub(crate) is_crossing: bool,
 }
 
-/// Looks at a step from state `x` with joint accelerations `u` that takes `duration` and ends in `next`: adds
+/// Looks at a step from state `x` with the controls `u` that takes `duration` and ends in `next`: adds
 /// the cones on whose wrong side the boresights are within it.
 pub(super) fn follow(
     cones: &Cones,

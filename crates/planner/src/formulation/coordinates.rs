@@ -17,6 +17,8 @@ use super::loads::Moment;
 /// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃), r and ṙ from the fixed CM
 /// ```
 ///
+/// The control is q̈. Where a joint's jerk is limited, q̈ are j more states and the control is the jerk.
+///
 /// Where the duration is free, one more state follows: ζ, the duration as a share of the longest. It does not
 /// change along the way, and all rates are multiplied by it: the grid is that of the longest duration. Where the
 /// axis of a cone moves, the last state is the time t since the start: ṫ = 1.
@@ -30,6 +32,8 @@ pub(crate) struct Coordinates {
     center: Vector3<f64>,
     /// Whether a joint is locked: its control does nothing, and its state stays what it is.
     locked: Arc<[bool]>,
+    /// Whether accelerations are states and jerks the controls.
+    has_jerk: bool,
     is_duration_free: bool,
     /// Whether time is a state.
     has_time: bool,
@@ -54,6 +58,7 @@ impl Coordinates {
             center,
             system,
             locked,
+            has_jerk: scenario.system().limits_jerk(),
             is_duration_free: scenario.free_duration().is_some(),
             has_time: Cones::has_moving(scenario),
         }
@@ -74,10 +79,20 @@ impl Coordinates {
     }
 
     fn joints_end(&self) -> usize {
+        self.motion_end() + if self.has_jerk { self.joints() } else { 0 }
+    }
+
+    /// Where the states of the free-floating system end.
+    fn motion_end(&self) -> usize {
         self.first_joint_angle() + 2 * self.joints()
     }
 
-    /// The joint angles and rates among the states.
+    /// Whether accelerations are states and jerks the controls.
+    pub(crate) fn has_jerk(&self) -> bool {
+        self.has_jerk
+    }
+
+    /// The joint angles and rates among the states, and accelerations where they are.
     pub(crate) fn joint_states(&self) -> std::ops::Range<usize> {
         self.joint_angle(0)..self.joints_end()
     }
@@ -129,18 +144,37 @@ impl Coordinates {
         self.first_joint_angle() + self.joints() + joint
     }
 
-    /// Takes the joint angles and rates of one state over into another.
+    /// Index of a joint's acceleration among the states, where accelerations are.
+    pub(crate) fn joint_acceleration(&self, joint: usize) -> Option<usize> {
+        self.has_jerk.then(|| self.motion_end() + joint)
+    }
+
+    /// Takes the joint angles and rates of one state over into another, and accelerations where they are.
     pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
         let joints = self.joint_states();
         to[joints.clone()].copy_from_slice(&from[joints]);
     }
 
-    /// Moves the joints of a state on by a step with constant accelerations `u`.
+    /// Moves the joints of a state on by a step with the controls `u`.
     pub(crate) fn move_joints(&self, x: &mut [f64], u: &[f64], step_s: f64) {
-        for (joint, &u) in u.iter().enumerate().filter(|&(joint, _)| !self.is_locked(joint)) {
+        let (accelerations, jerks) = (self.accelerations(x, u), self.jerks(u));
+        for (joint, (&u, &jerk)) in accelerations.iter().zip(&jerks).enumerate() {
             let (angle, rate) = (self.joint_angle(joint), self.joint_rate(joint));
-            x[angle] += step_s * (x[rate] + 0.5 * step_s * u);
-            x[rate] += step_s * u;
+            let gained = step_s * (u + 0.5 * step_s * jerk);
+            x[angle] += step_s * (x[rate] + 0.5 * step_s * (u + step_s * jerk / 3.0));
+            x[rate] += gained;
+            if let Some(acceleration) = self.joint_acceleration(joint) {
+                x[acceleration] += step_s * jerk;
+            }
+        }
+    }
+
+    /// The controls of steps of length `step` that stop a joint, as multiples of its rate: one acceleration, or a
+    /// jerk and back.
+    pub(crate) fn stop(&self, step: f64) -> Vec<f64> {
+        match self.has_jerk {
+            true => vec![-step.powi(-2), step.powi(-2)],
+            false => vec![-step.recip()],
         }
     }
 
@@ -151,7 +185,7 @@ impl Coordinates {
 
     /// The joint rates among the states.
     pub(crate) fn joint_rates<'x, T>(&self, x: &'x [T]) -> &'x [T] {
-        &x[self.joint_rate(0)..self.joints_end()]
+        &x[self.joint_rate(0)..self.motion_end()]
     }
 
     /// The state at the start.
@@ -173,7 +207,8 @@ impl Coordinates {
         self.of_free_floating_state(&state, 0.0)
     }
 
-    /// The state at a time in these coordinates, of a motion of the longest duration.
+    /// The state at a time in these coordinates, of a motion of the longest duration; joint accelerations that
+    /// are states are zero.
     pub(crate) fn of_free_floating_state(&self, state: &State<f64>, time: f64) -> Vec<f64> {
         let mut x = match self.formulation {
             Formulation::Full => state.to_vec(),
@@ -182,12 +217,13 @@ impl Coordinates {
                 [&attitude[..], &state.joint_angles, &state.joint_rates].concat()
             }
         };
+        x.resize(self.joints_end(), 0.0);
         x.extend(self.is_duration_free.then_some(1.0));
         x.extend(self.has_time.then_some(time));
         x
     }
 
-    /// ẋ for the joint accelerations `u`, in the time of the grid.
+    /// ẋ for the controls `u`, in the time of the grid.
     pub(crate) fn rates<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         let mut rates = self.rates_in_time(x, u);
         if let Some(index) = self.duration() {
@@ -197,17 +233,22 @@ impl Coordinates {
         rates
     }
 
-    /// ẋ for the joint accelerations `u`.
+    /// ẋ for the controls `u`.
     fn rates_in_time<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
-        let u = self.accelerations(u);
+        let accelerations = self.accelerations(x, u);
         let mut rates = match self.formulation {
-            Formulation::Full => self.system.state_derivative(&x[..self.joints_end()], &u),
+            Formulation::Full => {
+                self.system.state_derivative(&x[..self.motion_end()], &accelerations)
+            }
             Formulation::Reduced => {
                 let attitude = self.attitude_of(x);
                 let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
-                [&turning[..], self.joint_rates(x), &u].concat()
+                [&turning[..], self.joint_rates(x), &accelerations].concat()
             }
         };
+        if self.has_jerk {
+            rates.extend(self.jerks(u));
+        }
         if self.is_duration_free {
             rates.push(T::from(0.0));
         }
@@ -223,8 +264,7 @@ impl Coordinates {
         Quaternion::from_array(std::array::from_fn(|i| x[first + i]))
     }
 
-    /// The state a time `after_s` later under constant joint accelerations `u`: one step of the classical
-    /// Runge–Kutta method.
+    /// The state a time `after_s` later under the controls `u`: one step of the classical Runge–Kutta method.
     pub(crate) fn moved_on<T: Scalar>(&self, x: &[T], u: &[T], after_s: T) -> Vec<T> {
         let from = |rates: &[T], share: f64| -> Vec<T> {
             x.iter().zip(rates).map(|(&x, &rate)| x + after_s * share * rate).collect()
@@ -243,7 +283,7 @@ impl Coordinates {
     pub(crate) fn free_floating_state<T: Scalar>(&self, x: &[T]) -> State<T> {
         match self.formulation {
             Formulation::Full => {
-                State::from_slice(&x[..self.joints_end()]).expect("the full form's states")
+                State::from_slice(&x[..self.motion_end()]).expect("the full form's states")
             }
             Formulation::Reduced => {
                 let (q, qdot) = (self.joint_angles(x), self.joint_rates(x));
@@ -261,14 +301,29 @@ impl Coordinates {
         }
     }
 
-    /// The motion at a time `s` after the beginning of a step from state `x` with the joint accelerations
-    /// `u`.
+    /// The joints' angles at a time `s` after the beginning of a step from state `x` with the controls `u`.
+    pub(crate) fn joint_angles_within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Vec<T> {
+        let (accelerations, jerks) = (self.accelerations(x, u), self.jerks(u));
+        let joints = self.joint_angles(x).iter().zip(self.joint_rates(x));
+        let joints = joints.zip(accelerations.iter().zip(&jerks));
+        joints
+            .map(|((&angle, &rate), (&u, &jerk))| {
+                angle + s * (rate + s * 0.5 * (u + s * jerk * (1.0 / 3.0)))
+            })
+            .collect()
+    }
+
+    /// Their rates.
+    pub(crate) fn joint_rates_within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Vec<T> {
+        let (accelerations, jerks) = (self.accelerations(x, u), self.jerks(u));
+        let joints = self.joint_rates(x).iter().zip(accelerations.iter().zip(&jerks));
+        joints.map(|(&rate, (&u, &jerk))| rate + s * (u + s * 0.5 * jerk)).collect()
+    }
+
+    /// The motion at a time `s` after the beginning of a step from state `x` with the controls `u`.
     pub(crate) fn within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Moment<T> {
-        let u = self.accelerations(u);
-        let joints = self.joint_angles(x).iter().zip(self.joint_rates(x)).zip(&u);
-        let (joint_angles, joint_rates): (Vec<T>, Vec<T>) = joints
-            .map(|((&angle, &rate), &u)| (angle + s * (rate + s * u * 0.5), rate + s * u))
-            .unzip();
+        let joint_angles = self.joint_angles_within(x, u, s);
+        let joint_rates = self.joint_rates_within(x, u, s);
         let h_body = match self.momentum == Vector3::zeros() {
             true => Vector3::from_element(T::from(0.0)),
             false => {
@@ -285,13 +340,32 @@ impl Coordinates {
             }
         };
         let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
-        Moment { angular_rate, joint_angles, joint_rates, joint_accelerations: u }
+        let begins = self.accelerations(x, u).into_iter().zip(self.jerks(u));
+        let joint_accelerations = begins.map(|(begins, jerk)| begins + s * jerk).collect();
+        Moment { angular_rate, joint_angles, joint_rates, joint_accelerations }
     }
 
-    /// The joint accelerations that controls make: a locked joint has none.
-    pub(super) fn accelerations<T: Scalar>(&self, u: &[T]) -> Vec<T> {
-        let moving = u.iter().zip(self.locked.iter());
-        moving.map(|(&u, &is_locked)| if is_locked { T::from(0.0) } else { u }).collect()
+    /// The joint accelerations where a step from state `x` with the controls `u` begins: a locked joint has
+    /// none.
+    pub(crate) fn accelerations<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
+        match self.has_jerk {
+            true => self.of_moving(&x[self.motion_end()..self.joints_end()]),
+            false => self.of_moving(u),
+        }
+    }
+
+    /// The joint jerks in a step with the controls `u`, zero where accelerations are held.
+    pub(crate) fn jerks<T: Scalar>(&self, u: &[T]) -> Vec<T> {
+        match self.has_jerk {
+            true => self.of_moving(u),
+            false => vec![T::from(0.0); u.len()],
+        }
+    }
+
+    /// The same values with zero for locked joints.
+    fn of_moving<T: Scalar>(&self, values: &[T]) -> Vec<T> {
+        let moving = values.iter().zip(self.locked.iter());
+        moving.map(|(&value, &is_locked)| if is_locked { T::from(0.0) } else { value }).collect()
     }
 
     fn reduced_angular_rate<T: Scalar>(&self, attitude: &Quaternion<T>, x: &[T]) -> Vector3<T> {

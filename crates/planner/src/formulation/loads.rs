@@ -10,7 +10,9 @@
 //!
 //! with a quaternion that is off by the square of how far the base's rate changes within the step, and not
 //! at all where there is no momentum. Torques jump from step to step with the accelerations and change
-//! within one, so they are stated at both its ends, and at places between where that is not enough.
+//! within one, so they are stated at both its ends, and at places between where that is not enough. Where
+//! accelerations are continuous, so are torques, and the end of a step says the same as the beginning of the
+//! next.
 
 use std::sync::Arc;
 
@@ -32,6 +34,8 @@ pub(crate) struct Loads {
     /// One a joint.
     drives: Vec<Drive>,
     limits: LoadLimits,
+    /// The first place of a step at which forces and torques are stated: its beginning, or after that.
+    first_place: usize,
 }
 
 impl Loads {
@@ -43,6 +47,7 @@ impl Loads {
             torques: torques.filter(|(_, most)| most.is_finite()).collect(),
             drives: system.drives.clone(),
             limits: system.load_limits,
+            first_place: usize::from(system.limits_jerk()),
         }
     }
 
@@ -65,7 +70,7 @@ impl Loads {
     /// Bounds of [`values`](Self::values) in a step that is taken as so many equal parts.
     pub(super) fn bounds(&self, parts: usize) -> ComponentBounds {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for place in 0..=parts {
+        for place in self.first_place..=parts {
             let signed = self.torques.len();
             lower.extend(vec![-1.0; signed]);
             let squares = self.squares(place);
@@ -97,7 +102,7 @@ impl Loads {
         if self.is_empty() {
             return values;
         }
-        for place in 0..=parts {
+        for place in self.first_place..=parts {
             let moment = coordinates.within(x, u, h * (place as f64 / parts as f64));
             values.extend(self.shares(&moment, place > 0));
         }

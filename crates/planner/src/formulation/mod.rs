@@ -1,34 +1,34 @@
 //! The optimal control problem of a scenario.
 //!
 //! ```text
-//! min  Σ_{k<N} w_u (Δt / 0.05 s) ‖u_k‖² + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
+//! min  w_u ∫‖q̈‖² dt / 0.05 s + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
 //! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps, boresights on
 //!      their side of cones
 //! ```
 //!
-//! (the paper's equations 6–14), w_T T where the duration T is free, and q_N as far as the scenario gives the
-//! posture at the end. The desired position, velocity, rates and joint angles are those of the system at rest
+//! (the paper's equations 6–14), w_T T where the duration T is free, q_N as far as the scenario gives the
+//! posture at the end, and q̈_0 = q̈_N = 0 where jerks are limited. The desired position, velocity, rates and joint angles are those of the system at rest
 //! where it starts, or ends. Distances of capsules are squared: the feasible set is the same, and the square is
 //! smooth where two links meet. Those of boxes are signed, so that they say how to get out.
 
 mod clearances;
 mod cones;
 mod coordinates;
+mod end_conditions;
 mod loads;
-mod posture;
 mod stage_limits;
 #[cfg(test)]
 mod tests;
 
 use righting_multibody::{Quaternion, State};
-use righting_ocp::{ComponentBounds, ControlProblem};
+use righting_ocp::{ComponentBounds, ControlProblem, Expr};
 use righting_scalar::Scalar;
 
 pub(crate) use clearances::Clearances;
 pub(crate) use cones::Cones;
 pub(crate) use coordinates::Coordinates;
+use end_conditions::EndConditions;
 pub(crate) use loads::Loads;
-use posture::EndPosture;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use stage_limits::StageLimits;
@@ -38,7 +38,8 @@ pub struct FormulatedManeuver {
     /// The problem, in continuous time.
     pub problem: ControlProblem,
     pub(crate) coordinates: Coordinates,
-    /// Its initial state x_0: [r, q_BN, ṙ, ω, q, q̇] in the full form, [q_BN, q, q̇] in the reduced.
+    /// Its initial state x_0: [r, q_BN, ṙ, ω, q, q̇] in the full form, [q_BN, q, q̇] in the reduced; then the
+    /// accelerations where jerks are limited.
     pub initial: Vec<f64>,
 }
 
@@ -69,9 +70,18 @@ impl FormulatedManeuver {
             state_bounds.upper[angle] = limits.angle_max_rad;
             state_bounds.lower[rate] = -limits.rate_max_rad_s;
             state_bounds.upper[rate] = limits.rate_max_rad_s;
+            if let Some(acceleration) = coordinates.joint_acceleration(joint) {
+                state_bounds.lower[acceleration] = -limits.acceleration_max_rad_s2;
+                state_bounds.upper[acceleration] = limits.acceleration_max_rad_s2;
+            }
         }
-        let accelerations: Vec<f64> =
-            limits.iter().map(|limits| limits.acceleration_max_rad_s2).collect();
+        let controls: Vec<f64> = limits
+            .iter()
+            .map(|limits| match coordinates.has_jerk() {
+                true => limits.jerk_max_rad_s3,
+                false => limits.acceleration_max_rad_s2,
+            })
+            .collect();
 
         let dynamics = coordinates.clone();
         let terminal = coordinates.clone();
@@ -83,7 +93,7 @@ impl FormulatedManeuver {
         let path = (coordinates.clone(), clearances.clone(), cones.clone());
         let path_bounds = joined(clearances.bounds(), cones.bounds());
         let loads = Loads::new(scenario);
-        let stage_bounds = stage_limits.bounds(limits, (&clearances, &loads, &cones));
+        let stage_bounds = stage_limits.bounds(&coordinates, limits, (&clearances, &loads, &cones));
         let kept = (clearances, loads, cones);
         let within = (stage_limits.clone(), coordinates.clone(), kept);
         if let (Some(index), Some(free)) = (coordinates.duration(), scenario.free_duration()) {
@@ -93,11 +103,12 @@ impl FormulatedManeuver {
         let free: Vec<usize> = coordinates.duration().into_iter().collect();
         let longest = weights.time * scenario.horizon().duration_s;
         let running = coordinates.clone();
-        let posture = EndPosture::new(scenario, &coordinates);
-        let end = coordinates.clone();
+        let end = EndConditions::new(scenario, &coordinates);
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
             .free_initial_states(&free)
-            .running_cost(move |x, u| sum_of_squares(u) * running.duration_share(x) * control)
+            .running_cost(move |x, u, step| {
+                effort(&running, x, u, step.length) * running.duration_share(x) * control
+            })
             .terminal_cost(move |x| {
                 let end = goal.cost(&terminal.free_floating_state(x), &weights);
                 match longest > 0.0 {
@@ -106,7 +117,7 @@ impl FormulatedManeuver {
                 }
             })
             .state_bounds(state_bounds)
-            .control_bounds(ComponentBounds::symmetric(&accelerations))
+            .control_bounds(ComponentBounds::symmetric(&controls))
             .path_constraints(path_bounds, move |x| {
                 let (coordinates, clearances, cones) = &path;
                 let mut values = clearances.distances(coordinates.joint_angles(x));
@@ -118,7 +129,7 @@ impl FormulatedManeuver {
                 let h = h * coordinates.duration_share(x);
                 stage_limits.values(coordinates, (clearances, loads, cones), (x, u), h)
             })
-            .terminal_constraints(posture.bounds(), move |x| posture.values(&end, x));
+            .terminal_constraints(end.bounds(), move |x| end.values(x));
         // The paper transcribes all states, and which ones there are decides where its guess leads.
         let problem = match scenario.solver().is_paper() {
             true => problem.keep_passive_states(),
@@ -126,6 +137,21 @@ impl FormulatedManeuver {
         };
         Self { problem, coordinates, initial }
     }
+}
+
+/// The mean of ‖q̈‖² over a step of length `h` in the time of the grid; of a locked joint, whose control does
+/// nothing, that of its control. Where the jerk is held it is Σ q̈² + q̈ h q⃛ + h² q⃛²/3: no other weight on
+/// the jerk is needed to determine it.
+fn effort(coordinates: &Coordinates, x: &[Expr], u: &[Expr], h: Expr) -> Expr {
+    if !coordinates.has_jerk() {
+        return sum_of_squares(u);
+    }
+    let h = h * coordinates.duration_share(x);
+    let accelerations = coordinates.accelerations(x, u);
+    accelerations.iter().zip(u).fold(Expr::constant(0.0), |sum, (&begins, &jerk)| {
+        let gained = h * jerk;
+        sum + begins * begins + begins * gained + gained * gained * (1.0 / 3.0)
+    })
 }
 
 /// The state that the terminal cost asks for; rates and velocity are zero.

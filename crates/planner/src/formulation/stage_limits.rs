@@ -10,6 +10,8 @@
 //! hull: with the angles of the nodes within their limits, the middle point's being so is enough, and is
 //! linear. It asks for up to Δt²/8 |u| more than is needed. So a long step is taken as m curves, one after
 //! the other, with the middle points q(s) + Δt/2m q̇(s) at s = 0, Δt/m, …; these ask for 1/m² of that.
+//! Where the jerk is held instead, the curves are cubic, with two middle points a third of Δt/m from the ends
+//! of each, and the rates are the quadratic ones, with q̇(s) + Δt/2m q̈(s) in the middle.
 //!
 //! Distances and angles from cones are stated at places within the step, which x_k and u_k decide alone: the
 //! posture exactly, the attitude by one Runge–Kutta step to there. So are loads, which have no other place: see
@@ -67,14 +69,22 @@ impl StageLimits {
     /// Bounds of [`Self::values`].
     pub(super) fn bounds(
         &self,
+        coordinates: &Coordinates,
         joint_limits: &[JointLimits],
         (clearances, loads, cones): (&Clearances, &Loads, &Cones),
     ) -> ComponentBounds {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for (&joint, &curves) in &self.joints {
+            let JointLimits { angle_min_rad, angle_max_rad, rate_max_rad_s, .. } =
+                joint_limits[joint];
             for _ in 0..curves {
-                lower.push(joint_limits[joint].angle_min_rad);
-                upper.push(joint_limits[joint].angle_max_rad);
+                if coordinates.has_jerk() {
+                    lower.extend([angle_min_rad, angle_min_rad, -rate_max_rad_s]);
+                    upper.extend([angle_max_rad, angle_max_rad, rate_max_rad_s]);
+                } else {
+                    lower.push(angle_min_rad);
+                    upper.push(angle_max_rad);
+                }
             }
         }
         for (&clearance, &parts) in &self.clearances {
@@ -102,33 +112,40 @@ impl StageLimits {
         (x, u): (&[Expr], &[Expr]),
         h: Expr,
     ) -> Vec<Expr> {
-        let (angles, rates) = (coordinates.joint_angles(x), coordinates.joint_rates(x));
-        let u = coordinates.accelerations(u);
         let mut values = Vec::new();
         for (&joint, &curves) in &self.joints {
             let share = 1.0 / curves as f64;
             for curve in 0..curves {
-                let s = h * (curve as f64 * share);
-                let angle = angles[joint] + s * (rates[joint] + s * 0.5 * u[joint]);
-                values.push(angle + h * (0.5 * share) * (rates[joint] + s * u[joint]));
+                let at = |place: f64| {
+                    let s = h * (place * share);
+                    let angle = coordinates.joint_angles_within(x, u, s)[joint];
+                    (angle, coordinates.joint_rates_within(x, u, s)[joint])
+                };
+                let (angle, rate) = at(curve as f64);
+                if coordinates.has_jerk() {
+                    let third = h * (share / 3.0);
+                    let (end, end_rate) = at((curve + 1) as f64);
+                    let middle_rate = at(curve as f64 + 0.5).1 * 2.0 - (rate + end_rate) * 0.5;
+                    values.extend([angle + third * rate, end - third * end_rate, middle_rate]);
+                } else {
+                    values.push(angle + h * (0.5 * share) * rate);
+                }
             }
         }
         for (&clearance, &parts) in &self.clearances {
             for part in 1..parts {
                 let s = h * (part as f64 / parts as f64);
-                let joints = angles.iter().zip(rates).zip(&u);
-                let posture: Vec<Expr> =
-                    joints.map(|((&q, &rate), &u)| q + s * (rate + s * 0.5 * u)).collect();
+                let posture = coordinates.joint_angles_within(x, u, s);
                 values.push(clearances.distance(&posture, clearance));
             }
         }
         for (&cone, &parts) in &self.cones {
             for part in 1..parts {
-                let there = coordinates.moved_on(x, &u, h * (part as f64 / parts as f64));
+                let there = coordinates.moved_on(x, u, h * (part as f64 / parts as f64));
                 values.push(cones.cosine(coordinates, &there, cone));
             }
         }
-        values.extend(loads.values(coordinates, (x, &u), h, self.load_parts));
+        values.extend(loads.values(coordinates, (x, u), h, self.load_parts));
         values
     }
 }

@@ -1,7 +1,9 @@
 use std::path::Path;
 
 use righting_ocp::{DerivativeErrors, Grid, MultipleShooting, StageFunctions};
-use righting_scenario::file::{DirectionTable, End, Pointing};
+use righting_scenario::file::{
+    DirectionTable, Duration, DurationRange, End, Pointing, SystemReference,
+};
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
 use righting_test_support::varied;
@@ -113,6 +115,23 @@ fn derivatives_of_cones_and_postures_agree_with_finite_differences() {
             let mut angles = vec![None; file.initial.joint_angles_deg.len()];
             angles[1] = Some(12.0);
             file.end = Some(End { hard: None, joint_angles_deg: Some(angles) });
+        });
+        check_scenario(name, &scenario, 5, false);
+        check_scenario(name, &scenario, 5, true);
+    }
+}
+
+/// Accelerations as states, with loads, a free duration, and limits within the steps.
+#[test]
+fn derivatives_of_jerk_limited_maneuvers_agree_with_finite_differences() {
+    for name in ["slew_4dof", "detumble_2dof_full"] {
+        let scenario = varied(&read(name), |file| {
+            let duration_s = file.horizon.duration_s.longest_s();
+            file.horizon.duration_s =
+                Duration::Free(DurationRange { min: 0.5 * duration_s, max: duration_s });
+            let SystemReference::Inline(system) = &mut file.system else { unreachable!() };
+            system.links[1].jerk_max_deg_s3 = Some(2.0);
+            system.links[1].torque_max_n_m = Some(100.0);
         });
         check_scenario(name, &scenario, 5, false);
         check_scenario(name, &scenario, 5, true);

@@ -28,8 +28,10 @@ impl InitialGuesses<'_> {
         let line = line.map(|length_rad| REST_TO_REST * length_rad.powi(2) / duration_s.powi(3));
         let step_s = duration_s / self.steps as f64;
         let of_loop = |guess: &InitialGuess| {
-            let controls = (0..self.steps).flat_map(|step| guess.controls.row(step));
-            controls.map(|u| u * u).sum::<f64>() * step_s
+            let accelerations = (0..self.steps).flat_map(|step| {
+                self.coordinates.accelerations(guess.states.row(step), guess.controls.row(step))
+            });
+            accelerations.map(|u| u * u).sum::<f64>() * step_s
         };
         let loops = self.single_loops(&axis, angle_rad);
         let least = loops.iter().map(of_loop).chain(line).fold(f64::INFINITY, f64::min);

@@ -112,12 +112,11 @@ impl InitialGuesses<'_> {
                 angle.clamp(lowest, highest)
             };
             let most = limits.acceleration_max_rad_s2;
-            for step in 0..self.steps {
-                let middle = step as f64 + 0.5;
-                let [before, here, after] = [middle - 1.0, middle, middle + 1.0].map(moved);
+            self.accelerate(&mut guess, joint, |steps| {
+                let [before, here, after] = [steps - 1.0, steps, steps + 1.0].map(moved);
                 let acceleration = (before - 2.0 * here + after) / step_s.powi(2);
-                guess.controls.row_mut(step)[joint] = acceleration.clamp(-most, most);
-            }
+                acceleration.clamp(-most, most)
+            });
         }
         self.simulated(guess)
     }
@@ -141,7 +140,8 @@ impl InitialGuesses<'_> {
             let turned = 0.5 * (1.0 - (PI * node as f64 / self.steps as f64).cos());
             let mut state = self.coordinates.free_floating_state(guess.states.row(node));
             state.attitude = start.product(&Quaternion::from_axis_angle(axis, angle_rad * turned));
-            let row = self.coordinates.of_free_floating_state(&state, self.time(node));
+            let mut row = self.coordinates.of_free_floating_state(&state, self.time(node));
+            self.coordinates.copy_joints(guess.states.row(node), &mut row);
             guess.states.row_mut(node).copy_from_slice(&row);
         }
         guess

@@ -37,11 +37,16 @@ impl Search<'_> {
             motion.states.row_mut(step + 1).copy_from_slice(solution.states.row(step + 1));
             motion.controls.row_mut(step).copy_from_slice(solution.controls.row(step));
         }
-        // What is left of the joints' rates is stopped in the first step that follows.
+        // What is left of the joints' rates is stopped in what follows.
         let coordinates = &self.model.coordinates;
         let rates = coordinates.joint_rates(solution.states.row(moved));
-        let stop = rates.iter().map(|rate| -rate / self.grid.step_s());
-        motion.controls.row_mut(moved).iter_mut().zip(stop).for_each(|(u, stop)| *u = stop);
+        for (step, share) in coordinates.stop(self.grid.step_s()).iter().enumerate() {
+            if moved + step == self.grid.steps() {
+                return Ok(None);
+            }
+            let controls = motion.controls.row_mut(moved + step);
+            controls.iter_mut().zip(rates).for_each(|(u, rate)| *u = share * rate);
+        }
         let end = coordinates.free_floating_state(solution.states.row(moved));
         let turn_rad = end.angular_rate.norm() * self.grid.step_s();
         let substeps = ((turn_rad / HOLD_TURN_RAD).ceil() as usize).max(1);

@@ -170,7 +170,10 @@ impl Model {
         for row in motion.rows() {
             let state = other.coordinates.free_floating_state(row);
             let time = other.coordinates.time_of(row);
-            states.push(&self.coordinates.of_free_floating_state(&state, time));
+            let mut x = self.coordinates.of_free_floating_state(&state, time);
+            x[self.coordinates.joint_states()]
+                .copy_from_slice(&row[other.coordinates.joint_states()]);
+            states.push(&x);
         }
         InitialGuess { states, controls: controls.clone() }
     }

@@ -3,6 +3,7 @@
 use righting_ocp::{Curvature, InitialGuess, OcpError, OcpSolution, Samples, Settings};
 
 use super::{Search, portfolio, settings};
+use crate::formulation::Coordinates;
 use crate::initial_guess::InitialGuesses;
 
 /// Guesses tried at a time.
@@ -98,7 +99,7 @@ fn displaced(
     let steps = guess.controls.len();
     let change = averaged(direction, asked_steps, steps);
     let step_s = guesses.scenario.horizon().duration_s / steps as f64;
-    let share = sign * FIRST_STEP_RAD / largest_turn(&change, step_s);
+    let share = sign * FIRST_STEP_RAD / largest_turn(guesses.coordinates, &change, step_s);
     guess.controls = averaged(&plan.controls, asked_steps, steps);
     for step in 0..steps {
         let controls = guess.controls.row_mut(step);
@@ -123,15 +124,13 @@ fn averaged(controls: &Samples, fine_steps: usize, steps: usize) -> Samples {
 }
 
 /// How far these controls turn the joint that they turn most, from rest, rad.
-fn largest_turn(controls: &Samples, step_s: f64) -> f64 {
-    let (mut angles, mut rates) = (vec![0.0; controls.width()], vec![0.0; controls.width()]);
+fn largest_turn(coordinates: &Coordinates, controls: &Samples, step_s: f64) -> f64 {
+    let mut x = vec![0.0; coordinates.dimension()];
     let mut largest: f64 = 0.0;
     for row in controls.rows() {
-        for ((angle, rate), u) in angles.iter_mut().zip(&mut rates).zip(row) {
-            *angle += step_s * (*rate + 0.5 * step_s * u);
-            *rate += step_s * u;
-            largest = largest.max(angle.abs());
-        }
+        coordinates.move_joints(&mut x, row, step_s);
+        let turned = coordinates.joint_angles(&x).iter().map(|angle| angle.abs());
+        largest = largest.max(turned.fold(0.0, f64::max));
     }
     largest
 }

@@ -1,4 +1,4 @@
-/*! Generated from sources 472f27740e1040ab1930ee1cf9fc1b22888358a2adf73a4592a169cc71490154 */
+/*! Generated from sources 29d37b653d56d9ba54341d8acef47525c4857dae5ffb3f0c7de86abf585b0aa4 */
 /*!
 three
 

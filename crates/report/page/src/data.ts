@@ -79,6 +79,7 @@ export interface JointLimits {
   angle_max_deg: number | null;
   rate_max_deg_s: number;
   acceleration_max_deg_s2: number;
+  jerk_max_deg_s3: number | null;
 }
 
 /** Columns, node by node, each a little-endian float32 array in base64. */
@@ -90,6 +91,7 @@ export type ColumnName =
   | "joint_angles_rad"
   | "joint_rates_rad_s"
   | "joint_accelerations_rad_s2"
+  | "joint_jerks_rad_s3"
   | "joint_torques_n_m"
   | "power_w"
   | "attitude_error_rad"

@@ -34,6 +34,11 @@ export class Motion {
     return this.columns[name].length / this.nodes;
   }
 
+  /** Whether accelerations are linear between nodes, by jerks, rather than held. */
+  get hasJerks(): boolean {
+    return this.width("joint_jerks_rad_s3") > 0;
+  }
+
   /** The interval that holds a time, and how far into it the time is, 0 to 1. */
   locate(time: number): { k: number; share: number } {
     let [low, high] = [0, this.nodes - 1];

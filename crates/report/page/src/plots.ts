@@ -231,10 +231,16 @@ function panels(data: ReportData, motion: Motion): Panel[] {
       limits: symmetric(joint_limits.map((limit) => limit.rate_max_deg_s)),
     },
     {
-      ...plain, title: "Joint accelerations, the control", unit: "deg/s²", leastSpan: 1e-4, held: true,
+      ...plain, title: motion.hasJerks ? "Joint accelerations" : "Joint accelerations, the control",
+      unit: "deg/s²", leastSpan: 1e-4, held: !motion.hasJerks,
       curves: joints("joint_accelerations_rad_s2", DEGREES),
       limits: symmetric(joint_limits.map((limit) => limit.acceleration_max_deg_s2)),
     },
+    ...(motion.hasJerks ? [{
+      ...plain, title: "Joint jerks, the control", unit: "deg/s³", leastSpan: 1e-5, held: true,
+      curves: joints("joint_jerks_rad_s3", DEGREES),
+      limits: symmetric(joint_limits.flatMap((limit) => limit.jerk_max_deg_s3 ?? [])),
+    }] : []),
     { ...plain, title: "Joint torques", unit: "N m", held: true, curves: joints("joint_torques_n_m") },
     { ...plain, title: "Mechanical power of the joints", unit: "W", curves: [one("", motion.component("power_w"))] },
     {

@@ -112,7 +112,9 @@ const righting = {
       angular_rate_rad_s: motion.sample("angular_rate_rad_s", player.time),
       joint_angles_rad: motion.sample("joint_angles_rad", player.time),
       joint_rates_rad_s: motion.sample("joint_rates_rad_s", player.time),
-      joint_accelerations_rad_s2: motion.held("joint_accelerations_rad_s2", player.time),
+      joint_accelerations_rad_s2: motion.hasJerks
+        ? motion.sample("joint_accelerations_rad_s2", player.time)
+        : motion.held("joint_accelerations_rad_s2", player.time),
       power_w: motion.sample("power_w", player.time)[0],
     };
   },

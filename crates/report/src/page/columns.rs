@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use righting_multibody::Kinematics;
-use righting_results::{Node, Trajectory};
+use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::bodies::Solid;
 use righting_scenario::collision::Clearance;
 use righting_scenario::{CollisionModel, Maneuver, Scenario};
@@ -19,7 +19,8 @@ pub(super) type Column = String;
 /// What the page shows of each node; a column that the plan has no numbers for is empty.
 ///
 /// Names, units and frames are those of `trajectory.csv`; what it does not have:
-/// `attitude_error_rad` is the angle to a slew's target, `arm_points_m` are the origins of frames
+/// `joint_accelerations_rad_s2` are there at the last node too where there are jerks; `attitude_error_rad` is
+/// the angle to a slew's target, `arm_points_m` are the origins of frames
 /// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and
 /// clearances are the least of any link from what the base keeps out and of any two links. `capsules_m` are
 /// the two ends of the segment inside each capsule of the arm that is drawn as one, in body axes.
@@ -32,6 +33,7 @@ pub(super) struct Columns {
     joint_angles_rad: Column,
     joint_rates_rad_s: Column,
     joint_accelerations_rad_s2: Column,
+    joint_jerks_rad_s3: Column,
     joint_torques_n_m: Column,
     power_w: Column,
     attitude_error_rad: Column,
@@ -64,13 +66,17 @@ impl Columns {
         let model = &scenario.system().model;
         let postures: Vec<Kinematics<f64>> =
             nodes.iter().map(|node| model.kinematics(&node.joint_angles_rad)).collect();
-        let held = |control: bool| {
-            let none = vec![f64::NAN; trajectory.joints()];
-            encoded(shown.iter().flat_map(|&k| match trajectory.intervals().get(k) {
-                Some(interval) if control => interval.joint_accelerations_rad_s2.clone(),
-                Some(interval) => interval.joint_torques_n_m.clone(),
-                None => none.clone(),
-            }))
+        let held = |of_interval: fn(&ControlInterval) -> &[f64]| {
+            let width = of_interval(&trajectory.intervals()[0]).len();
+            let of_node = |&k: &usize| match trajectory.intervals().get(k) {
+                Some(interval) => of_interval(interval).to_vec(),
+                None => vec![f64::NAN; width],
+            };
+            encoded(shown.iter().flat_map(of_node))
+        };
+        let joint_accelerations_rad_s2 = match trajectory.has_jerks() {
+            true => encoded(shown.iter().flat_map(|&k| trajectory.joint_accelerations_at(k))),
+            false => held(|interval| &interval.joint_accelerations_rad_s2),
         };
         let momentum = |node: &&Node| -> [f64; 3] {
             model.h_tilde(&node.joint_angles_rad, &node.joint_rates_rad_s).into()
@@ -93,8 +99,9 @@ impl Columns {
             joint_rates_rad_s: encoded(
                 nodes.iter().flat_map(|node| node.joint_rates_rad_s.clone()),
             ),
-            joint_accelerations_rad_s2: held(true),
-            joint_torques_n_m: held(false),
+            joint_accelerations_rad_s2,
+            joint_jerks_rad_s3: held(|interval| &interval.joint_jerks_rad_s3),
+            joint_torques_n_m: held(|interval| &interval.joint_torques_n_m),
             power_w: encoded(nodes.iter().map(|node| node.power_w)),
             attitude_error_rad: encoded(errors),
             arm_points_m: encoded(points.flat_map(|point| [point.x, point.y, point.z])),

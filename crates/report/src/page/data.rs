@@ -77,6 +77,7 @@ struct JointLimits {
     angle_max_deg: Option<f64>,
     rate_max_deg_s: f64,
     acceleration_max_deg_s2: f64,
+    jerk_max_deg_s3: Option<f64>,
 }
 
 impl<'a> PageData<'a> {
@@ -162,12 +163,13 @@ impl KeepOut {
 
 impl JointLimits {
     fn of(limits: &righting_scenario::JointLimits) -> Self {
-        let finite_deg = |angle_rad: f64| angle_rad.is_finite().then(|| angle_rad.to_degrees());
+        let finite_deg = |limit_rad: f64| limit_rad.is_finite().then(|| limit_rad.to_degrees());
         Self {
             angle_min_deg: finite_deg(limits.angle_min_rad),
             angle_max_deg: finite_deg(limits.angle_max_rad),
             rate_max_deg_s: limits.rate_max_rad_s.to_degrees(),
             acceleration_max_deg_s2: limits.acceleration_max_rad_s2.to_degrees(),
+            jerk_max_deg_s3: finite_deg(limits.jerk_max_rad_s3),
         }
     }
 }

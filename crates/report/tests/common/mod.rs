@@ -79,6 +79,7 @@ fn trajectory(joints: usize, steps: usize) -> Trajectory {
         joint_accelerations_rad_s2: (0..joints)
             .map(|i| -0.01 * (6.0 * k as f64 / steps as f64 + i as f64).sin())
             .collect(),
+        joint_jerks_rad_s3: Vec::new(),
         joint_torques_n_m: vec![0.0; joints],
     });
     Trajectory::new(nodes.collect(), intervals.collect()).expect("the parts fit")
