@@ -27,6 +27,9 @@ use crate::planner::PlanError;
 use crate::replanner::Measured;
 use crate::scaling::Scaling;
 
+/// Why there are no gains about accelerations that are states.
+const JERKS: &str =
+    "links[].jerk_max_deg_s3: there is no feedback for maneuvers with limited jerks";
 /// By how much states are moved to see what follows (rad and rad in the unit of time): central differences are
 /// then right to ten digits.
 const DIFFERENCE: f64 = 1e-5;
@@ -48,11 +51,14 @@ impl Feedback {
     /// About a plan of a slew.
     ///
     /// # Errors
-    /// [`PlanError::NoFeedback`] when the maneuver is no slew, [`PlanError::Shape`] when the plan is of other
+    /// [`PlanError::NoFeedback`] when the maneuver is no slew or its jerks are limited, [`PlanError::Shape`] when the plan is of other
     /// joints.
     pub fn new(scenario: &Scenario, plan: &Trajectory) -> Result<Self, PlanError> {
         if !matches!(scenario.maneuver(), Maneuver::Slew(_)) {
-            return Err(PlanError::NoFeedback);
+            return Err(PlanError::NoFeedback("feedback is for slews, this is a detumble"));
+        }
+        if scenario.system().limits_jerk() {
+            return Err(PlanError::NoFeedback(JERKS));
         }
         crate::planner::require_same_joints(scenario, Some(plan))?;
         let (scenario, scaling) = Scaling::applied(scenario)?;

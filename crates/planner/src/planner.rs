@@ -238,9 +238,9 @@ pub enum PlanError {
     /// The parts of the trajectory do not fit together.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// Feedback holds a base to its target: a detumble has none.
-    #[error("feedback is for slews, this is a detumble")]
-    NoFeedback,
+    /// There is no feedback for such a maneuver, for a reason.
+    #[error("{0}")]
+    NoFeedback(&'static str),
     /// No motion of the arm makes the maneuver.
     #[error(transparent)]
     Impossible(#[from] Impossible),
