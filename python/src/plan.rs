@@ -1,0 +1,302 @@
+use std::path::PathBuf;
+
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
+use righting_scenario::json::FileKind;
+use righting_verifier::{Verified, verify_directory};
+
+use crate::check::Check;
+use crate::columns::Columns;
+use crate::failure::{Failure, Outcome};
+use crate::json::{to_python, word};
+use crate::scenario::Scenario;
+use crate::verification::Verification;
+
+/// A planned maneuver: its motion on N steps between N + 1 nodes, what it reached and whether it was proven.
+///
+/// `righting.solve` makes it, and `Plan.read` reads it from a folder. Its arrays are made once and read-only; copy
+/// one to change it. j is the number of joints. Position and velocity are those of the origin of the body frame
+/// (the base's center of mass) in inertial axes; the quaternion is scalar first and turns body vectors into
+/// inertial ones; the angular rate is in body axes.
+#[pyclass(frozen, module = "righting")]
+pub struct Plan {
+    /// With the duration that the plan chose, where it was free to.
+    pub scenario: righting_scenario::Scenario,
+    pub solution: Solution,
+    pub trajectory: Trajectory,
+    columns: PyOnceLock<Columns>,
+}
+
+impl Plan {
+    pub fn new(
+        scenario: righting_scenario::Scenario,
+        solution: Solution,
+        trajectory: Trajectory,
+    ) -> Self {
+        let scenario = match solution.duration_s {
+            Some(duration_s) => scenario.with_duration(duration_s),
+            None => scenario,
+        };
+        Self { scenario, solution, trajectory, columns: PyOnceLock::new() }
+    }
+
+    fn columns(&self, py: Python<'_>) -> PyResult<&Columns> {
+        self.columns.get_or_try_init(py, || Columns::new(py, &self.trajectory))
+    }
+
+    /// The plan, if it was proven.
+    ///
+    /// # Errors
+    /// [`Failure::NoPlan`] and [`Failure::Unproven`].
+    pub fn proven(&self) -> Outcome<&Self> {
+        if !self.solution.status.is_acceptable() {
+            return Err(Failure::NoPlan(self.solution.status));
+        }
+        match self.solution.verification.failures().next() {
+            Some(check) => Err(Failure::Unproven(check.clone())),
+            None => Ok(self),
+        }
+    }
+}
+
+#[pymethods]
+impl Plan {
+    /// Reads a plan from the folder that `righting solve` or `save` wrote, and verifies it again.
+    ///
+    /// Raises
+    /// ------
+    /// FileError, InputError
+    ///     A file cannot be read, or something in it is wrong. A plan that is wrong is none: see `verified`.
+    #[staticmethod]
+    fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        let read = py.detach(|| verify_directory(&folder));
+        let Verified { solution, scenario, trajectory } =
+            read.map_err(Failure::of_input(FileKind::Solution))?;
+        Ok(Self::new(scenario, solution, trajectory))
+    }
+
+    /// Writes `trajectory.csv`, `solution.json` and `report.html`, the interactive page, to a folder, which is made
+    /// if it is missing. Other files that it may have stay.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     A file cannot be written.
+    /// NoPlanError
+    ///     There is no plan to write.
+    fn save(&self, folder: PathBuf) -> PyResult<()> {
+        if !self.solution.status.is_acceptable() {
+            return Err(Failure::NoPlan(self.solution.status).into());
+        }
+        let of_file = Failure::of_input(FileKind::Solution);
+        let made = std::fs::create_dir_all(&folder)
+            .map_err(|source| righting_scenario::Error::Write { file: folder.clone(), source });
+        made.map_err(&of_file)?;
+        self.trajectory.write_csv(&folder.join(TRAJECTORY_FILE)).map_err(&of_file)?;
+        self.solution.write_json(&folder.join(SOLUTION_FILE)).map_err(&of_file)?;
+        let page = self.page();
+        righting_scenario::file_io::replace(&folder.join("report.html"), |writer| {
+            writer.write_all(page.as_bytes())
+        })
+        .map_err(&of_file)?;
+        Ok(())
+    }
+
+    /// Name of the scenario.
+    #[getter]
+    fn name(&self) -> &str {
+        self.scenario.name()
+    }
+
+    /// The scenario that was solved.
+    #[getter]
+    fn scenario(&self) -> Scenario {
+        Scenario(self.scenario.clone())
+    }
+
+    /// How the optimizer ended: ``"solved"``, ``"acceptable"``, ``"infeasible"``, ``"iteration_limit"``,
+    /// ``"time_limit"``, …
+    #[getter]
+    fn status(&self) -> String {
+        word(&self.solution.status)
+    }
+
+    /// Whether the optimizer converged and every check of the independent verification passed.
+    #[getter]
+    fn verified(&self) -> bool {
+        self.solution.status.is_acceptable() && self.solution.verification.passed
+    }
+
+    /// The verification that was made with the plan.
+    #[getter]
+    fn verification(&self) -> Verification {
+        Verification::of(self.solution.verification.clone())
+    }
+
+    /// Verifies the plan again, from its first node and its controls alone.
+    fn verify(&self, py: Python<'_>) -> Verification {
+        let verify = || righting_verifier::verify(&self.scenario, &self.trajectory);
+        Verification::of(py.detach(verify))
+    }
+
+    /// Returns the plan if it was verified, and raises otherwise.
+    ///
+    /// Raises
+    /// ------
+    /// NoPlanError
+    ///     The optimizer did not converge; `status` says how it ended.
+    /// VerificationError
+    ///     The plan does not do what it claims; `check` names the first check that failed.
+    fn raise_for_status(slf: PyRef<'_, Self>) -> PyResult<PyRef<'_, Self>> {
+        slf.proven()?;
+        Ok(slf)
+    }
+
+    /// Value of the objective, in the scenario's weights.
+    #[getter]
+    fn objective(&self) -> f64 {
+        self.solution.objective
+    }
+
+    /// Iterations of the optimizer on the asked grid.
+    #[getter]
+    fn iterations(&self) -> usize {
+        self.solution.iterations
+    }
+
+    /// Duration, s: the one that was chosen where the scenario leaves it free.
+    #[getter]
+    fn duration_s(&self) -> f64 {
+        self.scenario.horizon().duration_s
+    }
+
+    /// Number of steps N.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.trajectory.steps()
+    }
+
+    /// Number of joints j.
+    #[getter]
+    fn joint_count(&self) -> usize {
+        self.trajectory.joints()
+    }
+
+    /// Norm of the vector part of the attitude error quaternion at the end; 0 for a detumble.
+    #[getter]
+    fn attitude_error(&self) -> f64 {
+        self.solution.terminal.attitude_error
+    }
+
+    /// Angle of the attitude error at the end, deg.
+    #[getter]
+    fn attitude_error_deg(&self) -> f64 {
+        self.solution.terminal.attitude_error_deg
+    }
+
+    /// Norm of the base's angular rate at the end, deg/s.
+    #[getter]
+    fn final_rate_deg_s(&self) -> f64 {
+        self.solution.terminal.angular_rate_deg_s
+    }
+
+    /// What a reader should know, a sentence each: what was assumed, what stood in the way.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.solution.notes.clone()
+    }
+
+    /// Every limit that holds along the way, at its worst place, between the nodes too.
+    #[getter]
+    fn limits(&self) -> Vec<Check> {
+        let checks = self.solution.verification.checks.iter();
+        checks.filter(|check| check.is_limit).map(Check::of).collect()
+    }
+
+    /// Everything that `solution.json` holds, as a dictionary.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.solution)
+    }
+
+    /// Times of the nodes, s. Shape (N + 1,).
+    #[getter]
+    fn time_s(&self, py: Python<'_>) -> PyResult<Py<PyArray1<f64>>> {
+        Ok(self.columns(py)?.time_s.clone_ref(py))
+    }
+
+    /// Position of the body frame's origin, inertial axes, m. Shape (N + 1, 3).
+    #[getter]
+    fn position_m(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.position_m.clone_ref(py))
+    }
+
+    /// Attitude as unit quaternions w, x, y, z (Hamilton), body to inertial axes. Shape (N + 1, 4).
+    #[getter]
+    fn quaternion(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.quaternion.clone_ref(py))
+    }
+
+    /// Velocity of the body frame's origin, inertial axes, m/s. Shape (N + 1, 3).
+    #[getter]
+    fn velocity_m_s(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.velocity_m_s.clone_ref(py))
+    }
+
+    /// Angular rate of the base, body axes, rad/s. Shape (N + 1, 3).
+    #[getter]
+    fn angular_rate_rad_s(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.angular_rate_rad_s.clone_ref(py))
+    }
+
+    /// Joint angles, rad. Shape (N + 1, j).
+    #[getter]
+    fn joint_angles_rad(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.joint_angles_rad.clone_ref(py))
+    }
+
+    /// Joint rates, rad/s. Shape (N + 1, j).
+    #[getter]
+    fn joint_rates_rad_s(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.joint_rates_rad_s.clone_ref(py))
+    }
+
+    /// Joint accelerations, the control: row k holds from node k to node k + 1, rad/s². Shape (N, j).
+    #[getter]
+    fn joint_accelerations_rad_s2(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.joint_accelerations_rad_s2.clone_ref(py))
+    }
+
+    /// Joint torques at the first node of each step, N m. Shape (N, j).
+    #[getter]
+    fn joint_torques_n_m(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.joint_torques_n_m.clone_ref(py))
+    }
+
+    /// Mechanical power of all joints at the nodes, W. Shape (N + 1,).
+    #[getter]
+    fn power_w(&self, py: Python<'_>) -> PyResult<Py<PyArray1<f64>>> {
+        Ok(self.columns(py)?.power_w.clone_ref(py))
+    }
+
+    /// The interactive page, an HTML document that opens from disk and loads nothing.
+    fn page(&self) -> String {
+        righting_report::report_html(&self.scenario, &self.solution, &self.trajectory)
+    }
+
+    /// The summary that `righting solve` prints.
+    fn __str__(&self) -> String {
+        righting_report::summary(&self.solution, &[])
+    }
+
+    fn __repr__(&self) -> String {
+        let verdict = match self.verified() {
+            true => "verified".to_owned(),
+            false if self.solution.status.is_acceptable() => "NOT VERIFIED".to_owned(),
+            false => format!("NO PLAN, {}", self.status()),
+        };
+        let asked = righting_report::maneuver_phrase(&self.solution);
+        format!("Plan({:?}: {asked}, {} steps, {verdict})", self.name(), self.steps())
+    }
+}
