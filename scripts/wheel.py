@@ -52,7 +52,8 @@ def test(wheel: Path, righting: Path | None) -> None:
     run(python, "-m", "pip", "install", "--quiet", f"{wheel}[test]")
     program = {"RIGHTING": str(righting.resolve())} if righting else {}
     run(python, "-m", "pytest", "-c", PYTHON / "pyproject.toml", PYTHON / "tests", cwd=OUT, env=program)
-    run(python, "-m", "mypy.stubtest", "righting", cwd=OUT)
+    run(python, "-m", "mypy.stubtest", "righting", "--mypy-config-file", PYTHON / "pyproject.toml", cwd=OUT)
+    run(python, "-m", "mypy", "--config-file", PYTHON / "pyproject.toml", PYTHON / "package", PYTHON / "tests")
 
 
 def main() -> None:

@@ -2,12 +2,14 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use righting_export::ExportError;
 use righting_ipopt::LoadError;
-use righting_planner::PlanError;
+use righting_planner::{PlanError, ReachError};
 use righting_results::{Check, Status};
 use righting_scenario::Error;
 use righting_scenario::error::{FieldProblem, ShapeError};
 use righting_scenario::json::FileKind;
+use righting_sweep::SweepError;
 
 /// Why something was not done.
 pub enum Failure {
@@ -35,6 +37,10 @@ pub enum Failure {
     Unproven(Check),
     /// There is no optimizer.
     NoOptimizer(LoadError),
+    /// A sweep cannot start or go on.
+    Sweep(SweepError),
+    /// A plan cannot be put into another format.
+    Export(ExportError),
     /// A solve was asked for where none can be made.
     NoTurn(&'static str),
     /// A callback or a signal handler raised this, or it is to be raised as it is.
@@ -63,6 +69,8 @@ impl Failure {
             }
             Self::Unproven(check) => format!("the plan failed its verification: {check}"),
             Self::NoOptimizer(error) => format!("not ready to solve: {error}"),
+            Self::Sweep(error) => error.to_string(),
+            Self::Export(error) => error.to_string(),
             Self::NoTurn(reason) => format!("not ready to solve: {reason}"),
             Self::Python(error) => error.to_string(),
         }
@@ -75,7 +83,9 @@ impl Failure {
                 Error::Read { .. } | Error::Write { .. } | Error::Remove { .. } => "FileError",
                 _ => "InputError",
             },
-            Self::Argument { .. } => "InputError",
+            Self::Argument { .. } | Self::Export(_) => "InputError",
+            Self::Sweep(SweepError::Worker { .. }) => "NotReadyError",
+            Self::Sweep(_) => "FileError",
             Self::Plan(PlanError::Impossible(_)) => "ImpossibleError",
             Self::Plan(_) | Self::NoPlan(_) => "NoPlanError",
             Self::Unproven(_) => "VerificationError",
@@ -95,6 +105,9 @@ impl Failure {
             }
             Self::Unproven(_) => {
                 Some("plan.verification has every check, plan.notes what was tried".to_owned())
+            }
+            Self::Sweep(SweepError::Occupied { .. }) => {
+                Some("resume=True goes on from there; or name another folder".to_owned())
             }
             Self::NoTurn(_) => Some(
                 "solve from the thread that is free, or in a process of its own that was spawned, not forked"
@@ -197,6 +210,35 @@ impl From<PyErr> for Failure {
 impl From<PlanError> for Failure {
     fn from(error: PlanError) -> Self {
         Self::Plan(error)
+    }
+}
+
+impl From<ReachError> for Failure {
+    fn from(error: ReachError) -> Self {
+        match error {
+            ReachError::Plan(error) => Self::Plan(error),
+            ReachError::Scenario(error) => Self::of_input(FileKind::Scenario)(error),
+            error => Self::Argument {
+                name: "what",
+                found: format!("\"angle\" ({error})"),
+                expected: "\"duration\"",
+            },
+        }
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Input(error) => Self::of_input(FileKind::Sweep)(error),
+            error => Self::Sweep(error),
+        }
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
+        Self::Export(error)
     }
 }
 

@@ -7,18 +7,26 @@
 
 mod check;
 mod columns;
+mod envelope;
+mod export;
 mod failure;
+mod function;
 mod input;
 mod iteration;
 mod json;
+mod mechanics;
 mod plan;
+mod power;
+mod reach;
 mod scenario;
 mod schema;
 mod solve;
+mod sweep;
 mod system;
 mod turn;
 mod verification;
 mod watch;
+mod wheels;
 
 /// Everything that the package takes from here.
 #[pyo3::pymodule]
@@ -28,15 +36,25 @@ mod _righting {
     #[pymodule_export]
     use crate::check::Check;
     #[pymodule_export]
+    use crate::envelope::{Envelope, Envelopes, envelope};
+    #[pymodule_export]
+    use crate::function::Function;
+    #[pymodule_export]
     use crate::iteration::Iteration;
     #[pymodule_export]
     use crate::plan::Plan;
+    #[pymodule_export]
+    use crate::power::Power;
+    #[pymodule_export]
+    use crate::reach::{Reach, reach};
     #[pymodule_export]
     use crate::scenario::Scenario;
     #[pymodule_export]
     use crate::schema::schema;
     #[pymodule_export]
     use crate::solve::solve;
+    #[pymodule_export]
+    use crate::sweep::{SweepTable, plan_sweep, run_shard, serve_sweep};
     #[pymodule_export]
     use crate::system::System;
     #[pymodule_export]

@@ -3,14 +3,19 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+use righting_analysis::PowerProfile;
+use righting_analysis::power::PAPER_EFFICIENCY;
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::json::FileKind;
 use righting_verifier::{Verified, verify_directory};
 
 use crate::check::Check;
 use crate::columns::Columns;
+use crate::export::export;
 use crate::failure::{Failure, Outcome};
 use crate::json::{to_python, word};
+use crate::power::Power;
 use crate::scenario::Scenario;
 use crate::verification::Verification;
 
@@ -280,9 +285,81 @@ impl Plan {
         Ok(self.columns(py)?.power_w.clone_ref(py))
     }
 
+    /// Joint torques and the power that they draw, counted in four ways, beside the power of reaction wheels.
+    ///
+    /// Parameters
+    /// ----------
+    /// efficiency
+    ///     Overall efficiency of the joints' actuators; the paper's 0.1 by default.
+    /// wheels
+    ///     The wheels to compare with: the path of a file of wheels, or a mapping; by default a pyramid of four of
+    ///     5 W each.
+    #[pyo3(signature = (*, efficiency=None, wheels=None))]
+    fn power(
+        &self,
+        py: Python<'_>,
+        efficiency: Option<f64>,
+        wheels: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Power> {
+        let wheels = crate::wheels::wheels(wheels)?;
+        let profile = py.detach(|| PowerProfile::new(&self.scenario, &self.trajectory));
+        let efficiency = efficiency.unwrap_or(PAPER_EFFICIENCY);
+        Ok(Power::new(profile.map_err(Failure::from)?, wheels, efficiency)?)
+    }
+
+    /// Writes the plan or its system in the format of another program; the files written.
+    ///
+    /// Parameters
+    /// ----------
+    /// format
+    ///     ``"urdf"``, ``"mjcf"``, ``"joint-trajectory"`` (JSON where the file ends in .json, else YAML), ``"ck"`` (with
+    ///     clock and frame kernels beside it), ``"stk"``, ``"aem"``, ``"npz"``, ``"mat"``, ``"basilisk"`` or
+    ///     ``"mujoco"``.
+    /// file
+    ///     Where to; its folder is made if it is missing.
+    /// epoch
+    ///     AEM, STK, CK: time of the first node, such as ``"2027-03-01T12:00:00"``; 2000-01-01T12:00:00 by default.
+    /// frame
+    ///     AEM, STK, CK: the inertial frame; EME2000 by default.
+    /// time_system, object_name
+    ///     AEM, CK: UTC and the system's name by default.
+    /// object_id, originator
+    ///     AEM: UNKNOWN and RIGHTING by default.
+    /// naif_id
+    ///     CK: NAIF's number of the spacecraft, below zero; -999 by default.
+    ///
+    /// Raises
+    /// ------
+    /// NoPlanError, VerificationError
+    ///     The plan was not verified.
+    /// InputError
+    ///     There is no such format, it does not take one of the arguments, or a value is not one that it takes.
+    #[pyo3(signature = (format, file, **message))]
+    fn export(
+        &self,
+        format: &str,
+        file: PathBuf,
+        message: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Vec<PathBuf>> {
+        Ok(export(self, format, &file, message)?)
+    }
+
     /// The interactive page, an HTML document that opens from disk and loads nothing.
     fn page(&self) -> String {
         righting_report::report_html(&self.scenario, &self.solution, &self.trajectory)
+    }
+
+    /// Shows the interactive page: inline in a notebook, `height` pixels high; elsewhere in a browser, and the file is
+    /// returned.
+    #[pyo3(signature = (*, height = 760))]
+    fn show<'py>(slf: &Bound<'py, Self>, height: u32) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("righting._show")?.call_method1("show", (slf, height))
+    }
+
+    /// A figure of matplotlib with six axes over time: attitude, angular rate, and the joints' angles, rates,
+    /// accelerations and torques.
+    fn plot<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("righting._plot")?.call_method1("plot", (slf,))
     }
 
     /// The summary that `righting solve` prints.

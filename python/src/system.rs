@@ -4,8 +4,10 @@ use righting_scenario::json::FileKind;
 use righting_scenario::{SystemFile, file};
 
 use crate::failure::{Failure, Outcome};
+use crate::function::Function;
 use crate::input::{Input, named};
 use crate::json::to_python;
+use crate::mechanics;
 
 /// A spacecraft and its arm, checked.
 ///
@@ -26,6 +28,15 @@ use crate::json::to_python;
 pub struct System(pub SystemFile);
 
 impl System {
+    /// What a path or a mapping holds.
+    pub fn of(source: &Bound<'_, PyAny>) -> Outcome<Self> {
+        let read = match Input::of(source)? {
+            Input::File(file) => SystemFile::read(&file),
+            Input::Text(text) => SystemFile::parse(&text, &named(None, "system")),
+        };
+        Ok(Self(read.map_err(Failure::of_input(FileKind::System))?))
+    }
+
     /// A system that was read already; `name` stands for its file in errors.
     pub fn of_file(system: file::System, name: &str) -> Outcome<Self> {
         let checked = SystemFile::from_file(system, &named(None, name));
@@ -37,11 +48,7 @@ impl System {
 impl System {
     #[new]
     fn new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = match Input::of(source)? {
-            Input::File(file) => SystemFile::read(&file),
-            Input::Text(text) => SystemFile::parse(&text, &named(None, "system")),
-        };
-        Ok(Self(read.map_err(Failure::of_input(FileKind::System))?))
+        Ok(Self::of(source)?)
     }
 
     /// Name of the system.
@@ -68,6 +75,54 @@ impl System {
         self.0.notes.clone()
     }
 
+    /// The equations of motion as a compiled function of x and u (joint accelerations, rad/s²), to its `rates` ẋ.
+    ///
+    /// Parameters
+    /// ----------
+    /// form
+    ///     ``"reduced"``: x = [quaternion, joint angles, joint rates], 4 + 2j states, with a third input `momentum`, the
+    ///     angular momentum about the system's center of mass in inertial axes, N m s.
+    ///     ``"full"``: x = [position, quaternion, velocity, angular rate, joint angles, joint rates], 13 + 2j states,
+    ///     with the axes of the arrays of a `Plan`.
+    /// order
+    ///     0: the rates. 1: `jacobian` too, by x and u. 2: `hessian` too, of the sum of the rates by a last input
+    ///     `weights`, by x and u.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     There is no such form or order.
+    #[pyo3(signature = (form = "reduced", *, order = 1))]
+    fn dynamics(&self, py: Python<'_>, form: &str, order: usize) -> PyResult<Function> {
+        let order = checked_order(order)?;
+        let model = &self.0.description.model;
+        let built = match form {
+            "reduced" => py.detach(|| mechanics::reduced_dynamics(model, order)),
+            "full" => py.detach(|| mechanics::full_dynamics(model, order)),
+            other => {
+                let found = format!("{other:?}");
+                let expected = "\"reduced\" or \"full\"";
+                return Err(Failure::Argument { name: "form", found, expected }.into());
+            }
+        };
+        Ok(built?)
+    }
+
+    /// The torques of the joints, N m, of the free-floating system as a compiled function of the base's angular rate
+    /// (body axes, rad/s) and joint angles, rates and accelerations (rad, rad/s, rad/s²). `order` is that of
+    /// `dynamics`; derivatives are by the four inputs in this order.
+    #[pyo3(signature = (*, order = 1))]
+    fn joint_torques(&self, py: Python<'_>, order: usize) -> PyResult<Function> {
+        let order = checked_order(order)?;
+        Ok(py.detach(|| mechanics::joint_torques(&self.0.description.model, order))?)
+    }
+
+    /// Ĩ (`inertia`, 3 by 3) and B (`joint_columns`, 3 by j) of the angular momentum Ĩ ω + B q̇ about the system's
+    /// center of mass, body axes, kg m², as a compiled function of the joint angles, rad.
+    fn momentum_map(&self, py: Python<'_>) -> PyResult<Function> {
+        Ok(py.detach(|| mechanics::momentum_map(&self.0.description.model))?)
+    }
+
     /// The system as a file holds it.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.0.resolved)
@@ -89,5 +144,16 @@ impl System {
             self.joint_count(),
             self.mass_kg()
         )
+    }
+}
+
+fn checked_order(order: usize) -> Outcome<usize> {
+    match order {
+        0..=2 => Ok(order),
+        _ => Err(Failure::Argument {
+            name: "order",
+            found: order.to_string(),
+            expected: "0, 1 or 2",
+        }),
     }
 }

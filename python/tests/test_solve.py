@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -172,7 +173,7 @@ def test_threads_solve_one_after_the_other_and_leave_python_running(scenarios: P
 
 
 @pytest.mark.parametrize(("name", "value"), [("time_limit_s", 0.0), ("time_limit_s", -1.0), ("threads", 0)])
-def test_arguments_are_checked(scenarios: Path, name: str, value: float) -> None:
+def test_arguments_are_checked(scenarios: Path, name: str, value: Any) -> None:
     with pytest.raises(rt.InputError) as raised:
         rt.solve(scenarios / "slew_2dof.json", **{name: value})
     assert raised.value.field == name

@@ -14,17 +14,25 @@ released. Sweeps use processes of their own.
 
 from __future__ import annotations
 
+from righting._reach import reach
 from righting._righting import (
     Check,
+    Envelope,
+    Envelopes,
+    Function,
     Iteration,
     Plan,
+    Power,
+    Reach,
     Scenario,
     System,
     Verification,
     __version__,
+    envelope,
     schema,
 )
 from righting._solve import solve
+from righting._sweep import SweepResults, sweep
 from righting.errors import (
     FileError,
     ImpossibleError,
@@ -37,19 +45,28 @@ from righting.errors import (
 
 __all__ = [
     "Check",
+    "Envelope",
+    "Envelopes",
     "FileError",
+    "Function",
     "ImpossibleError",
     "InputError",
     "Iteration",
     "NoPlanError",
     "NotReadyError",
     "Plan",
+    "Power",
+    "Reach",
     "RightingError",
     "Scenario",
+    "SweepResults",
     "System",
     "Verification",
     "VerificationError",
     "__version__",
+    "envelope",
+    "reach",
     "schema",
     "solve",
+    "sweep",
 ]

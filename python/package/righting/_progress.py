@@ -67,6 +67,20 @@ def shown(stack: ExitStack, progress: bool | None) -> Callable[[Iteration], None
     return show
 
 
+def both(
+    first: Callable[[Iteration], object] | None, second: Callable[[Iteration], object] | None
+) -> Callable[[Iteration], object] | None:
+    """What calls both, where there are both."""
+    if first is None or second is None:
+        return first or second
+
+    def called(iteration: Iteration) -> None:
+        first(iteration)
+        second(iteration)
+
+    return called
+
+
 def is_watched() -> bool:
     """Whether someone sees what is shown."""
     return in_notebook() or (sys.stderr is not None and sys.stderr.isatty())

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from typing import Any
 
 from righting import _righting
-from righting._progress import shown
+from righting._progress import both, shown
 from righting._righting import Iteration, Plan, Scenario
 
 
@@ -62,25 +62,11 @@ def solve(
         There was nothing to optimize.
     """
     with ExitStack() as stack:
-        show = shown(stack, progress)
         return _righting.solve(
             scenario,
             warm_start=warm_start,
             library=library,
             time_limit_s=time_limit_s,
             threads=threads,
-            on_iteration=_both(on_iteration, show),
+            on_iteration=both(on_iteration, shown(stack, progress)),
         )
-
-
-def _both(
-    first: Callable[[Iteration], object] | None, second: Callable[[Iteration], object] | None
-) -> Callable[[Iteration], object] | None:
-    if first is None or second is None:
-        return first or second
-
-    def both(iteration: Iteration) -> None:
-        first(iteration)
-        second(iteration)
-
-    return both
