@@ -12,6 +12,7 @@ use crate::failure::{Failure, Outcome};
 use crate::json::to_python;
 use crate::scenario::Scenario;
 use crate::system::System;
+use crate::turn::refuse_fork;
 use crate::wheels::wheels;
 
 /// All momenta (N m s) or torques (N m) that an arm can give, beside those of reaction wheels; body axes.
@@ -163,6 +164,7 @@ pub fn envelope(
             Failure::Argument { name: "samples", found: samples.to_string(), expected }.into()
         );
     }
+    refuse_fork()?;
     let found = py.detach(|| righting_analysis::envelopes(&system, samples, seed, &wheels));
     let [momenta, torques] =
         [Zonotope::momenta(wheels.wheels()), Zonotope::torques(wheels.wheels())];

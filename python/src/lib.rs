@@ -5,13 +5,16 @@
 //! done here is what Python asks for: arrays, exceptions, interrupts, and one solve at a time. `package/righting`
 //! says what of it is public.
 
+mod argument;
 mod check;
 mod columns;
 mod envelope;
 mod export;
 mod failure;
+mod flights;
 mod function;
 mod input;
+mod interruptible;
 mod iteration;
 mod json;
 mod mechanics;
@@ -37,6 +40,8 @@ mod _righting {
     use crate::check::Check;
     #[pymodule_export]
     use crate::envelope::{Envelope, Envelopes, envelope};
+    #[pymodule_export]
+    use crate::flights::Flights;
     #[pymodule_export]
     use crate::function::Function;
     #[pymodule_export]

@@ -6,14 +6,17 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use righting_analysis::PowerProfile;
 use righting_analysis::power::PAPER_EFFICIENCY;
+use righting_flight::{Sensors, Settings, Spreads};
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::json::FileKind;
 use righting_verifier::{Verified, verify_directory};
 
+use crate::argument::{above_zero, not_negative, seconds, share};
 use crate::check::Check;
 use crate::columns::Columns;
 use crate::export::export;
 use crate::failure::{Failure, Outcome};
+use crate::flights::Flights;
 use crate::json::{to_python, word};
 use crate::power::Power;
 use crate::scenario::Scenario;
@@ -303,8 +306,68 @@ impl Plan {
     ) -> PyResult<Power> {
         let wheels = crate::wheels::wheels(wheels)?;
         let profile = py.detach(|| PowerProfile::new(&self.scenario, &self.trajectory));
+        let drives = &self.scenario.system().drives;
         let efficiency = efficiency.unwrap_or(PAPER_EFFICIENCY);
-        Ok(Power::new(profile.map_err(Failure::from)?, wheels, efficiency)?)
+        Ok(Power::new(profile.map_err(Failure::from)?, drives, wheels, efficiency)?)
+    }
+
+    /// Flies the plan many times with spacecraft that are not as planned: open loop, and with the rest of the maneuver
+    /// planned anew on the way. Flight i is the same whatever the number of flights.
+    ///
+    /// Parameters
+    /// ----------
+    /// flights, seed
+    ///     How many, and the seed of all draws.
+    /// period_s, deadline_ms
+    ///     Time from one replan to the next; a replan that takes longer than the deadline is missed.
+    /// mass_percent, inertia_percent, center_m, mount_m
+    ///     By how much masses, inertias, centers of mass and the mount are off, at most, either way.
+    /// attitude_noise_deg, joint_noise_deg, joint_rate_noise_deg_s
+    ///     Standard deviations of what is measured.
+    ///
+    /// Raises
+    /// ------
+    /// NoPlanError, VerificationError
+    ///     The plan was not verified.
+    /// InputError
+    ///     An argument is not a number of its range.
+    #[pyo3(signature = (flights=100, *, seed=0, period_s=1.0, deadline_ms=None, mass_percent=10.0,
+        inertia_percent=10.0, center_m=0.0, mount_m=0.0, attitude_noise_deg=0.0, joint_noise_deg=0.0,
+        joint_rate_noise_deg_s=0.0))]
+    #[allow(clippy::too_many_arguments)] // Each has a name where it is called.
+    fn fly(
+        &self,
+        py: Python<'_>,
+        flights: usize,
+        seed: u64,
+        period_s: f64,
+        deadline_ms: Option<f64>,
+        mass_percent: f64,
+        inertia_percent: f64,
+        center_m: f64,
+        mount_m: f64,
+        attitude_noise_deg: f64,
+        joint_noise_deg: f64,
+        joint_rate_noise_deg_s: f64,
+    ) -> PyResult<Flights> {
+        let settings = Settings {
+            spreads: Spreads {
+                masses: share("mass_percent", mass_percent)?,
+                inertias: share("inertia_percent", inertia_percent)?,
+                centers_m: not_negative("center_m", center_m)?,
+                mount_m: not_negative("mount_m", mount_m)?,
+            },
+            sensors: Sensors {
+                attitude_rad: not_negative("attitude_noise_deg", attitude_noise_deg)?.to_radians(),
+                joint_angle_rad: not_negative("joint_noise_deg", joint_noise_deg)?.to_radians(),
+                joint_rate_rad_s: not_negative("joint_rate_noise_deg_s", joint_rate_noise_deg_s)?
+                    .to_radians(),
+            },
+            period_s: above_zero("period_s", period_s)?,
+            deadline: deadline_ms.map(|ms| seconds("deadline_ms", ms / 1e3)).transpose()?,
+            seed,
+        };
+        Ok(Flights::of(py, self.proven()?, settings, flights)?)
     }
 
     /// Writes the plan or its system in the format of another program; the files written.

@@ -1,9 +1,10 @@
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use righting_analysis::PowerProfile;
+use righting_analysis::motors::Braking;
 use righting_analysis::power::Accounting;
-use righting_scenario::WheelArray;
+use righting_analysis::{Motors, PowerProfile};
+use righting_scenario::{Drive, WheelArray};
 
 use crate::columns::{matrix, vector};
 use crate::failure::{Failure, Outcome};
@@ -17,13 +18,19 @@ use crate::json::to_python;
 #[pyclass(frozen, module = "righting")]
 pub struct Power {
     profile: PowerProfile,
+    drives: Vec<Drive>,
     wheels: WheelArray,
     efficiency: f64,
-    joints: usize,
 }
 
 impl Power {
-    pub fn new(profile: PowerProfile, wheels: WheelArray, efficiency: f64) -> Outcome<Self> {
+    /// Of a profile of joints with these drives.
+    pub fn new(
+        profile: PowerProfile,
+        drives: &[Drive],
+        wheels: WheelArray,
+        efficiency: f64,
+    ) -> Outcome<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
             return Err(Failure::Argument {
                 name: "efficiency",
@@ -31,9 +38,7 @@ impl Power {
                 expected: "more than 0, at most 1",
             });
         }
-        let joints =
-            profile.instants().first().map_or(0, |instant| instant.joint_torques_n_m.len());
-        Ok(Self { profile, wheels, efficiency, joints })
+        Ok(Self { profile, drives: drives.to_vec(), wheels, efficiency })
     }
 }
 
@@ -97,7 +102,7 @@ impl Power {
     fn joint_torques_n_m(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let instants = self.profile.instants().iter();
         let values = instants.flat_map(|instant| instant.joint_torques_n_m.iter().copied());
-        matrix(py, self.joints, values.collect())
+        matrix(py, self.drives.len(), values.collect())
     }
 
     /// Mechanical power of each joint at the points, W. Shape (5 N, j).
@@ -105,7 +110,7 @@ impl Power {
     fn joint_powers_w(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let instants = self.profile.instants().iter();
         let values = instants.flat_map(|instant| instant.joint_powers_w.iter().copied());
-        matrix(py, self.joints, values.collect())
+        matrix(py, self.drives.len(), values.collect())
     }
 
     /// Power that all joints draw at the points by an accounting, W. Shape (5 N,).
@@ -118,6 +123,25 @@ impl Power {
             expected: "\"signed\", \"absolute\", \"without_regeneration\" or \"with_regeneration\"",
         })?;
         Ok(vector(py, self.profile.drawn_w(named, self.efficiency)))
+    }
+
+    /// What the motors draw, where every joint's drive has a motor: `consumption` without and with regeneration,
+    /// `losses`, `peak_currents_a` and `peak_voltages_v`; None otherwise.
+    #[getter]
+    fn motors<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(motors) = Motors::new(&self.drives, &self.profile) else { return Ok(None) };
+        let consumption = PyDict::new(py);
+        for (name, braking) in
+            [("without_regeneration", Braking::Burnt), ("with_regeneration", Braking::FedBack)]
+        {
+            consumption.set_item(name, to_python(py, &motors.consumption(braking))?)?;
+        }
+        let values = PyDict::new(py);
+        values.set_item("consumption", consumption)?;
+        values.set_item("losses", to_python(py, &motors.losses())?)?;
+        values.set_item("peak_currents_a", vector(py, motors.peak_currents_a()))?;
+        values.set_item("peak_voltages_v", vector(py, motors.peak_voltages_v()))?;
+        Ok(Some(values))
     }
 
     /// Power that all wheels take while they spin steadily, W.

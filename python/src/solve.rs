@@ -1,12 +1,12 @@
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pyo3::prelude::*;
 use righting_planner::{PlanLibrary, Planned, Planner};
 use righting_results::{TRAJECTORY_FILE, Trajectory};
 use righting_scenario::json::FileKind;
 
+use crate::argument::{count, seconds};
 use crate::failure::{Failure, Outcome};
 use crate::plan::Plan;
 use crate::scenario::Scenario;
@@ -37,8 +37,8 @@ pub fn solve(
         .map(|folder| PlanLibrary::read(&folder))
         .transpose()
         .map_err(Failure::of_input(FileKind::Solution))?;
-    let limit = time_limit_s.map(seconds).transpose()?;
-    let threads = threads.map(count).transpose()?;
+    let limit = time_limit_s.map(|limit| seconds("time_limit_s", limit)).transpose()?;
+    let threads = threads.map(|threads| count("threads", threads)).transpose()?;
     let load = started.elapsed();
     let mut watch = Watch::new(on_iteration);
     let planned = alone(py, || {
@@ -72,22 +72,4 @@ fn earlier(plan: &Bound<'_, PyAny>) -> Outcome<Trajectory> {
     let folder: PathBuf = plan.extract()?;
     let read = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE));
     read.map_err(Failure::of_input(FileKind::Solution))
-}
-
-fn seconds(seconds: f64) -> Outcome<Duration> {
-    let limit = Some(seconds).filter(|seconds| *seconds > 0.0);
-    let limit = limit.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    limit.ok_or_else(|| Failure::Argument {
-        name: "time_limit_s",
-        found: seconds.to_string(),
-        expected: "a number of seconds above 0",
-    })
-}
-
-fn count(threads: usize) -> Outcome<NonZeroUsize> {
-    NonZeroUsize::new(threads).ok_or_else(|| Failure::Argument {
-        name: "threads",
-        found: threads.to_string(),
-        expected: "at least 1",
-    })
 }

@@ -4,9 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
-use std::time::Duration;
+use std::sync::mpsc::Sender;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -16,12 +14,11 @@ use righting_sweep::{
     ColumnCells, Shard, ShardRun, Slews, Summary, SweepError, SweepFolder, Table, Workers, worker,
 };
 
+use crate::argument::count;
 use crate::failure::{Failure, Outcome};
 use crate::input::{Input, named};
+use crate::interruptible::interruptible;
 use crate::json::to_python;
-
-/// How often Ctrl-C is looked for while no case ends.
-const LOOK_EVERY: Duration = Duration::from_millis(50);
 
 /// Checks a sweep and writes its plan to a folder; the number of its cases. Records that the folder has are gone on
 /// from if `resume` says so, and refused otherwise.
@@ -67,15 +64,7 @@ pub fn run_shard(
         found: format!("{shard:?}"),
         expected: "i/n with i from 1 to n",
     })?;
-    let jobs = jobs
-        .map(|jobs| {
-            NonZeroUsize::new(jobs).ok_or_else(|| Failure::Argument {
-                name: "jobs",
-                found: jobs.to_string(),
-                expected: "at least 1",
-            })
-        })
-        .transpose()?;
+    let jobs = jobs.map(|jobs| count("jobs", jobs)).transpose()?;
     let folder = SweepFolder::at(&out);
     let ran = py.detach(|| {
         let sweep = folder.sweep()?;
@@ -85,59 +74,38 @@ pub fn run_shard(
     Ok(ran?)
 }
 
-/// Runs a shard in a thread of its own, while this one looks for Ctrl-C and shows what is done.
+/// Runs a shard, while this thread looks for Ctrl-C and shows what is done.
 fn watched(
     run: ShardRun<'_>,
     jobs: Option<NonZeroUsize>,
     command: &[String],
     on_record: Option<&Py<PyAny>>,
 ) -> Outcome<usize> {
-    let halted = AtomicBool::new(false);
     let left = run.left();
-    let (sender, records) = mpsc::channel();
-    thread::scope(|scope| {
-        let halted = &halted;
-        let running = scope.spawn(move || {
-            let workers = Workers {
-                command: &|| {
-                    let mut started = Command::new(&command[0]);
-                    started.args(&command[1..]);
-                    started
-                },
-                jobs,
-                halted: &|| halted.load(Ordering::Relaxed),
-            };
-            run.run(&workers, |record| {
-                // The receiver outlives this thread.
-                let _ = sender.send(record.outcome.succeeded());
-            })
-        });
-        let (mut recorded, mut raised) = (0, None);
-        loop {
-            let event = records.recv_timeout(LOOK_EVERY);
-            let looked = Python::attach(|py| {
-                py.check_signals()?;
-                if let (Ok(succeeded), Some(on_record)) = (event, on_record) {
-                    on_record.call1(py, (succeeded, recorded + 1, left))?;
-                }
-                Ok::<(), PyErr>(())
-            });
-            if let Err(error) = looked {
-                raised.get_or_insert(error);
-                halted.store(true, Ordering::Relaxed);
-            }
-            match event {
-                Ok(_) => recorded += 1,
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
-            }
+    let mut recorded = 0;
+    let work = |halted: &AtomicBool, records: Sender<bool>| {
+        let workers = Workers {
+            command: &|| {
+                let mut started = Command::new(&command[0]);
+                started.args(&command[1..]);
+                started
+            },
+            jobs,
+            halted: &|| halted.load(Ordering::Relaxed),
+        };
+        run.run(&workers, |record| {
+            // The receiver outlives the run.
+            let _ = records.send(record.outcome.succeeded());
+        })
+    };
+    let ran = interruptible(work, |py, succeeded| {
+        recorded += 1;
+        match on_record {
+            Some(on_record) => on_record.call1(py, (succeeded, recorded, left)).map(drop),
+            None => Ok(()),
         }
-        let ran = running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        match raised {
-            Some(error) => Err(Failure::Python(error)),
-            None => Ok(ran?),
-        }
-    })
+    })?;
+    Ok(ran?)
 }
 
 /// Evaluates the cases that a parent process sends, until its input ends.

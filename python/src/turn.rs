@@ -15,8 +15,8 @@ use crate::failure::{Failure, Outcome};
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 static TURN: Mutex<()> = Mutex::new(());
-/// The process that solved first; 0 before that.
-static SOLVER: AtomicU32 = AtomicU32::new(0);
+/// The process that used threads first; 0 before that.
+static FIRST: AtomicU32 = AtomicU32::new(0);
 
 thread_local! {
     static IS_SOLVING: Cell<bool> = const { Cell::new(false) };
@@ -31,17 +31,26 @@ pub fn alone<T: Send>(py: Python<'_>, solve: impl FnOnce() -> T + Send) -> Outco
     if IS_SOLVING.get() {
         return Err(Failure::NoTurn("a callback of a solve cannot solve"));
     }
-    let this = process::id();
-    let first = SOLVER.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed);
-    if first.is_err_and(|first| first != this) {
-        return Err(Failure::NoTurn("this process was forked from one that had solved"));
-    }
+    refuse_fork()?;
     py.detach(|| {
         let _turn = wait()?;
         righting_ipopt::use_one_blas_thread()?;
         let _mark = Mark::set();
         Ok(solve())
     })
+}
+
+/// Everything that uses threads begins so.
+///
+/// # Errors
+/// [`Failure::NoTurn`] in a process forked from one that has begun so: its threads are gone, and would be waited for.
+pub fn refuse_fork() -> Outcome<()> {
+    let this = process::id();
+    let first = FIRST.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed);
+    match first.is_err_and(|first| first != this) {
+        true => Err(Failure::NoTurn("this process was forked from one that had solved")),
+        false => Ok(()),
+    }
 }
 
 /// The turn of this thread.

@@ -75,6 +75,33 @@ def test_the_work_of_the_joints_is_the_change_of_the_kinetic_energy(scenarios: P
         plan.power(efficiency=0)
 
 
+def test_motors_draw_what_joints_and_losses_take(scenarios: Path, plan: rt.Plan) -> None:
+    assert plan.power().motors is None
+    driven = rt.Scenario(scenarios / "slew_2dof.json").to_dict()
+    drive = {"gear_ratio": 100, "torque_constant_n_m_a": 0.05, "resistance_ohm": 1.0, "gear_efficiency": 0.8}
+    for link in driven["system"]["links"]:
+        link["drive"] = drive
+    power = rt.solve(driven).power()
+    assert power.motors is not None
+    drawn = power.motors["consumption"]["with_regeneration"]["energy_j"]
+    assert drawn == pytest.approx(power.work_j + sum(power.motors["losses"].values()), rel=1e-6, abs=1e-9)
+    assert power.motors["peak_currents_a"].shape == (2,)
+
+
+def test_flights_with_replans_end_nearer_than_open_loop(scenarios: Path) -> None:
+    plan = rt.solve(scenarios / "slew_2dof.json")
+    flights = plan.fly(4, period_s=5.0, seed=3)
+    assert len(flights) == 4 == len(flights.final_error_deg)
+    assert np.median(flights.final_error_deg) < np.median(flights.open_loop_error_deg)
+    assert flights.summary["open_loop"]["final_error_deg"]["max"] == flights.open_loop_error_deg.max()
+    again = plan.fly(2, period_s=5.0, seed=3)
+    assert np.array_equal(again.final_error_deg, flights.final_error_deg[:2])
+    for wrong in ({"flights": 0}, {"period_s": 0.0}, {"mass_percent": 100.0}, {"center_m": -1.0}):
+        with pytest.raises(rt.InputError) as raised:
+            plan.fly(**wrong)
+        assert raised.value.field == next(iter(wrong))
+
+
 def test_an_archive_of_numpy_holds_the_arrays_of_the_plan(plan: rt.Plan, tmp_path: Path) -> None:
     file = tmp_path / "made/plan.npz"
     assert plan.export("npz", file) == [file]

@@ -13,6 +13,7 @@ __all__ = [
     "Check",
     "Envelope",
     "Envelopes",
+    "Flights",
     "Function",
     "Iteration",
     "Plan",
@@ -191,10 +192,41 @@ class Plan:
     def power(
         self, *, efficiency: float | None = None, wheels: _Path | Mapping[str, Any] | None = None
     ) -> Power: ...
+    def fly(
+        self,
+        flights: int = 100,
+        *,
+        seed: int = 0,
+        period_s: float = 1.0,
+        deadline_ms: float | None = None,
+        mass_percent: float = 10.0,
+        inertia_percent: float = 10.0,
+        center_m: float = 0.0,
+        mount_m: float = 0.0,
+        attitude_noise_deg: float = 0.0,
+        joint_noise_deg: float = 0.0,
+        joint_rate_noise_deg_s: float = 0.0,
+    ) -> Flights: ...
     def export(self, format: str, file: _Path, **message: Any) -> list[Path]: ...
     def page(self) -> str: ...
     def show(self, *, height: int = 760) -> Any: ...
     def plot(self) -> Figure: ...
+
+@final
+class Flights:
+    def __len__(self) -> int: ...
+    @property
+    def final_error_deg(self) -> _Array: ...
+    @property
+    def final_rate_deg_s(self) -> _Array: ...
+    @property
+    def open_loop_error_deg(self) -> _Array: ...
+    @property
+    def open_loop_rate_deg_s(self) -> _Array: ...
+    @property
+    def replan_s(self) -> _Array: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
 
 @final
 class Power:
@@ -219,6 +251,8 @@ class Power:
     @property
     def joint_powers_w(self) -> _Array: ...
     def drawn_w(self, accounting: str = "signed") -> _Array: ...
+    @property
+    def motors(self) -> dict[str, Any] | None: ...
     @property
     def wheels_steady_power_w(self) -> float: ...
 
