@@ -18,6 +18,16 @@ OUT = ROOT / "out" / "wheel"
 TOOLS = Path(sys.executable).parent
 
 
+# Where the libraries are from that the package has loaded.
+LIBRARIES = """
+import righting
+files = {line.split()[-1] for line in open("/proc/self/maps") if "/" in line}
+for name in ("libipopt", "libdmumps", "liblapack", "libblas"):
+    (file,) = (file for file in files if f"/{name}" in file)
+    assert "/righting.libs/" in file, file
+"""
+
+
 def run(*command: object, **options: object) -> None:
     print("+", *command, flush=True)
     # auditwheel looks for patchelf among the programs.
@@ -51,6 +61,7 @@ def test(wheel: Path, righting: Path | None) -> None:
     python = environment / "bin" / "python"
     run(python, "-m", "pip", "install", "--quiet", f"{wheel}[test]")
     program = {"RIGHTING": str(righting.resolve())} if righting else {}
+    run(python, "-c", LIBRARIES, cwd=OUT)
     run(python, "-m", "pytest", "-c", PYTHON / "pyproject.toml", PYTHON / "tests", cwd=OUT, env=program)
     run(python, "-m", "mypy.stubtest", "righting", "--mypy-config-file", PYTHON / "pyproject.toml", cwd=OUT)
     run(python, "-m", "mypy", "--config-file", PYTHON / "pyproject.toml", PYTHON / "package", PYTHON / "tests")

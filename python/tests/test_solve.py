@@ -94,6 +94,15 @@ def test_dictionaries_and_scenarios_give_the_same_plan(scenarios: Path) -> None:
     assert np.array_equal(first.joint_angles_rad, second.joint_angles_rad)
 
 
+def test_mumps_finds_the_same_plan(scenarios: Path) -> None:
+    scenario = rt.Scenario(scenarios / "slew_2dof.json").to_dict()
+    stage = rt.solve(scenario)
+    scenario["solver"]["linear_solver"] = "mumps"
+    mumps = rt.solve(scenario)
+    assert "mumps" in mumps.to_dict()["versions"]["linear_solver"].lower()
+    assert mumps.verified and mumps.objective == pytest.approx(stage.objective, rel=1e-6)
+
+
 def test_a_warm_start_may_be_a_plan_or_its_folder(scenarios: Path, tmp_path: Path) -> None:
     farther = rt.Scenario(scenarios / "slew_2dof.json").to_dict()
     near = rt.solve(farther)
