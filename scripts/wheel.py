@@ -64,7 +64,7 @@ def test(wheel: Path, righting: Path | None) -> None:
     run(python, "-c", LIBRARIES, cwd=OUT)
     run(python, "-m", "pytest", "-c", PYTHON / "pyproject.toml", PYTHON / "tests", cwd=OUT, env=program)
     run(python, "-m", "mypy.stubtest", "righting", "--mypy-config-file", PYTHON / "pyproject.toml", cwd=OUT)
-    run(python, "-m", "mypy", "--config-file", PYTHON / "pyproject.toml", PYTHON / "package", PYTHON / "tests")
+    run(python, "-m", "mypy", "--config-file", PYTHON / "pyproject.toml", PYTHON / "package", PYTHON / "tests", cwd=OUT)
 
 
 def main() -> None:

@@ -42,7 +42,12 @@ pub enum Failure {
     /// A plan cannot be put into another format.
     Export(ExportError),
     /// A solve was asked for where none can be made.
-    NoTurn(&'static str),
+    NoTurn {
+        /// Why.
+        reason: &'static str,
+        /// What to do instead.
+        hint: &'static str,
+    },
     /// A callback or a signal handler raised this, or it is to be raised as it is.
     Python(PyErr),
 }
@@ -71,7 +76,7 @@ impl Failure {
             Self::NoOptimizer(error) => format!("not ready to solve: {error}"),
             Self::Sweep(error) => error.to_string(),
             Self::Export(error) => error.to_string(),
-            Self::NoTurn(reason) => format!("not ready to solve: {reason}"),
+            Self::NoTurn { reason, .. } => format!("not ready to solve: {reason}"),
             Self::Python(error) => error.to_string(),
         }
     }
@@ -89,7 +94,7 @@ impl Failure {
             Self::Plan(PlanError::Impossible(_)) => "ImpossibleError",
             Self::Plan(_) | Self::NoPlan(_) => "NoPlanError",
             Self::Unproven(_) => "VerificationError",
-            Self::NoOptimizer(_) | Self::NoTurn(_) | Self::Python(_) => "NotReadyError",
+            Self::NoOptimizer(_) | Self::NoTurn { .. } | Self::Python(_) => "NotReadyError",
         }
     }
 
@@ -109,10 +114,7 @@ impl Failure {
             Self::Sweep(SweepError::Occupied { .. }) => {
                 Some("resume=True goes on from there; or name another folder".to_owned())
             }
-            Self::NoTurn(_) => Some(
-                "solve from the thread that is free, or in a process of its own that was spawned, not forked"
-                    .to_owned(),
-            ),
+            Self::NoTurn { hint, .. } => Some((*hint).to_owned()),
             _ => None,
         }
     }

@@ -1,9 +1,10 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use righting_analysis::PowerProfile;
 use righting_analysis::power::PAPER_EFFICIENCY;
 use righting_flight::{Sensors, Settings, Spreads};
@@ -13,10 +14,11 @@ use righting_verifier::{Verified, verify_directory};
 
 use crate::argument::{above_zero, not_negative, seconds, share};
 use crate::check::Check;
-use crate::columns::Columns;
+use crate::columns::{Columns, to_tuple, trajectory};
 use crate::export::export;
 use crate::failure::{Failure, Outcome};
 use crate::flights::Flights;
+use crate::input::named;
 use crate::json::{to_python, word};
 use crate::power::Power;
 use crate::scenario::Scenario;
@@ -423,6 +425,28 @@ impl Plan {
     /// accelerations and torques.
     fn plot<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("righting._plot")?.call_method1("plot", (slf,))
+    }
+
+    /// A plan from what `__reduce__` gave: its solution as JSON, and its arrays.
+    #[staticmethod]
+    fn _of(solution: &str, arrays: &Bound<'_, PyTuple>) -> PyResult<Self> {
+        let solution: Solution = serde_json::from_str(solution)
+            .map_err(|error| PyValueError::new_err(format!("solution: {error}")))?;
+        let name = named(None, "scenario");
+        let scenario = righting_scenario::Scenario::from_file(solution.scenario.clone(), &name);
+        let scenario = scenario.map_err(Failure::of_input(FileKind::Solution))?;
+        Ok(Self::new(scenario, solution, trajectory(arrays)?))
+    }
+
+    #[allow(clippy::type_complexity)] // What pickle asks for.
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, Bound<'py, PyTuple>))> {
+        let (py, plan) = (slf.py(), slf.get());
+        let solution = serde_json::to_string(&plan.solution)
+            .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let arrays = to_tuple(py, plan.columns(py)?)?;
+        Ok((slf.get_type().getattr("_of")?, (solution, arrays)))
     }
 
     /// The summary that `righting solve` prints.

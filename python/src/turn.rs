@@ -29,7 +29,10 @@ thread_local! {
 /// threads are gone. [`Failure::NoOptimizer`] without Ipopt. What a signal handler raises while waiting.
 pub fn alone<T: Send>(py: Python<'_>, solve: impl FnOnce() -> T + Send) -> Outcome<T> {
     if IS_SOLVING.get() {
-        return Err(Failure::NoTurn("a callback of a solve cannot solve"));
+        return Err(Failure::NoTurn {
+            reason: "a callback of a solve cannot solve",
+            hint: "keep what it needs, and solve after the first solve has returned",
+        });
     }
     refuse_fork()?;
     py.detach(|| {
@@ -48,7 +51,10 @@ pub fn refuse_fork() -> Outcome<()> {
     let this = process::id();
     let first = FIRST.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed);
     match first.is_err_and(|first| first != this) {
-        true => Err(Failure::NoTurn("this process was forked from one that had solved")),
+        true => Err(Failure::NoTurn {
+            reason: "this process was forked from one that had solved",
+            hint: "use multiprocessing.get_context(\"spawn\")",
+        }),
         false => Ok(()),
     }
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import threading
 from pathlib import Path
 from typing import Any
@@ -72,6 +73,16 @@ def test_a_plan_survives_its_folder(plan: rt.Plan, tmp_path: Path) -> None:
     assert np.array_equal(read.joint_torques_n_m, plan.joint_torques_n_m)
     assert read.objective == plan.objective
     assert str(read).startswith("slew_4dof: ")
+
+
+def test_a_plan_can_be_pickled(plan: rt.Plan, scenarios: Path) -> None:
+    chosen = rt.solve(scenarios / "real/slew_4dof_fastest.json")
+    for made in (plan, chosen):
+        copy = pickle.loads(pickle.dumps(made))
+        assert copy.to_dict() == made.to_dict() and copy.scenario == made.scenario
+        assert np.array_equal(copy.quaternion, made.quaternion)
+        assert np.array_equal(copy.joint_torques_n_m, made.joint_torques_n_m)
+        assert copy.verify().passed and copy.duration_s == made.duration_s
 
 
 def test_a_changed_plan_fails_its_verification(plan: rt.Plan, tmp_path: Path) -> None:
