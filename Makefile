@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay limits bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay limits wheel bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -49,6 +49,14 @@ replay: setup
 limits: setup
 	cargo build --release --locked
 	scripts/limits.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# The wheel of the Python package in out/wheel/dist, with Ipopt in it, and its tests in a virtual environment of its
+# own, beside the plans of the command line.
+wheel: setup
+	cargo fmt --manifest-path python/Cargo.toml --check
+	cargo clippy --manifest-path python/Cargo.toml --release --locked -- -D warnings
+	cargo build --release --locked
+	scripts/wheel.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
 # All tests on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:

@@ -18,6 +18,8 @@ for manifest in Cargo.toml ipopt-sys/Cargo.toml crates/*/Cargo.toml; do
     grep -q '^rust-version\.workspace = true' "$manifest" ||
         fail "$manifest: expected rust-version.workspace = true"
 done
+grep -q "^rust-version = \"$oldest\"" python/Cargo.toml ||
+    fail "python/Cargo.toml: expected rust-version = \"$oldest\""
 for file in README.md CONTRIBUTING.md; do
     found=$(grep -o 'Rust [0-9][0-9.]*[0-9]' "$file" | sort -u)
     [ "$found" = "Rust $oldest" ] ||

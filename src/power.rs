@@ -96,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
     let efficiency = arguments.efficiency;
     let consumption =
-        |accounting: Accounting| (name(accounting), profile.consumption(accounting, efficiency));
+        |accounting: Accounting| (accounting.name(), profile.consumption(accounting, efficiency));
     let finite = |value: f64| value.is_finite().then_some(value);
     let printed = Printed {
         schema: "righting.power/1",
@@ -126,16 +126,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::print(&power_table(&solution, comparison))?;
     }
     Failure::of_verification(&solution).map_or(Ok(()), Err)
-}
-
-/// The key of a variant.
-fn name(accounting: Accounting) -> &'static str {
-    match accounting {
-        Accounting::Signed => "signed",
-        Accounting::Absolute => "absolute",
-        Accounting::WithoutRegeneration => "without_regeneration",
-        Accounting::WithRegeneration => "with_regeneration",
-    }
 }
 
 fn efficiency(text: &str) -> Result<f64, String> {

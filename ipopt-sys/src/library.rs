@@ -114,13 +114,39 @@ fn said(error: &libloading::Error) -> String {
     error.source().map_or_else(|| error.to_string(), ToString::to_string)
 }
 
-/// The program itself, which the library is linked to.
+/// The library that the program is linked to; where the system does not say which that is, the program.
 #[cfg(all(unix, not(feature = "dlopen")))]
 pub(crate) fn library() -> Result<&'static Library, LoadError> {
+    use libloading::os::unix::Library as Opened;
     use std::sync::LazyLock;
-    static PROGRAM: LazyLock<Library> =
-        LazyLock::new(|| Library(libloading::os::unix::Library::this().into()));
-    Ok(&PROGRAM)
+    static LIBRARY: LazyLock<Library> =
+        LazyLock::new(|| Library(linked().unwrap_or_else(Opened::this).into()));
+    Ok(&LIBRARY)
+}
+
+/// The linked library by the file that is in use, so that what it needs is found too: by name, nothing of it is
+/// found from within a module that keeps its libraries to itself, such as Python's.
+#[cfg(all(unix, not(feature = "dlopen")))]
+fn linked() -> Option<libloading::os::unix::Library> {
+    use std::ffi::{CStr, OsStr, c_void};
+    use std::mem::MaybeUninit;
+    use std::os::unix::ffi::OsStrExt;
+    let mut found = MaybeUninit::<libc::Dl_info>::zeroed();
+    let function = crate::CreateIpoptProblem as *const c_void;
+    // SAFETY: dladdr only reads the address, and fills in what it says it has found; what it points to stays as
+    // long as the library is loaded, which is as long as the program.
+    let file = unsafe {
+        if libc::dladdr(function, found.as_mut_ptr()) == 0
+            || found.assume_init().dli_fname.is_null()
+        {
+            return None;
+        }
+        CStr::from_ptr(found.assume_init().dli_fname)
+    };
+    let file = OsStr::from_bytes(file.to_bytes());
+    // SAFETY: nothing is loaded, and so nothing run: the library is in use already.
+    unsafe { libloading::os::unix::Library::open(Some(file), libc::RTLD_NOLOAD | libc::RTLD_LAZY) }
+        .ok()
 }
 
 #[cfg(not(any(unix, feature = "dlopen")))]

@@ -1,11 +1,7 @@
 //! What attitude files say beyond the plan.
 
-use std::time::SystemTime;
-
 use clap::Args;
-use jiff::Timestamp;
 use jiff::civil::DateTime;
-use jiff::tz::Offset;
 use righting_export::{AemOptions, CkOptions, StkOptions};
 
 use super::format::Format;
@@ -66,42 +62,38 @@ impl Message {
     }
 
     pub fn of_aem(self, maneuver: String, system: &str) -> AemOptions {
-        let now = Timestamp::try_from(SystemTime::now()).unwrap_or_default();
+        let usual = AemOptions::new(maneuver, system);
         AemOptions {
-            maneuver,
-            epoch: self.epoch(),
-            creation_date: Offset::UTC.to_datetime(now),
-            originator: or(self.originator, "RIGHTING"),
-            object_name: or(self.object_name, system),
-            object_id: or(self.object_id, "UNKNOWN"),
-            inertial_frame: or(self.frame, "EME2000"),
-            time_system: or(self.time_system, "UTC"),
+            epoch: self.epoch.unwrap_or(usual.epoch),
+            originator: self.originator.unwrap_or(usual.originator),
+            object_name: self.object_name.unwrap_or(usual.object_name),
+            object_id: self.object_id.unwrap_or(usual.object_id),
+            inertial_frame: self.frame.unwrap_or(usual.inertial_frame),
+            time_system: self.time_system.unwrap_or(usual.time_system),
+            ..usual
         }
     }
 
     pub fn of_stk(self, maneuver: String) -> StkOptions {
-        let epoch = self.epoch();
-        StkOptions { maneuver, epoch, inertial_frame: or(self.frame, "EME2000") }
-    }
-
-    pub fn of_ck(self, maneuver: String, system: &str) -> CkOptions {
-        CkOptions {
-            maneuver,
-            epoch: self.epoch(),
-            time_system: or(self.time_system, "UTC"),
-            inertial_frame: or(self.frame, "EME2000"),
-            object_name: or(self.object_name, system),
-            naif_id: self.naif_id.unwrap_or(-999),
+        let usual = StkOptions::new(maneuver);
+        StkOptions {
+            epoch: self.epoch.unwrap_or(usual.epoch),
+            inertial_frame: self.frame.unwrap_or(usual.inertial_frame),
+            ..usual
         }
     }
 
-    fn epoch(&self) -> DateTime {
-        self.epoch.unwrap_or(DateTime::constant(2000, 1, 1, 12, 0, 0, 0))
+    pub fn of_ck(self, maneuver: String, system: &str) -> CkOptions {
+        let usual = CkOptions::new(maneuver, system);
+        CkOptions {
+            epoch: self.epoch.unwrap_or(usual.epoch),
+            time_system: self.time_system.unwrap_or(usual.time_system),
+            inertial_frame: self.frame.unwrap_or(usual.inertial_frame),
+            object_name: self.object_name.unwrap_or(usual.object_name),
+            naif_id: self.naif_id.unwrap_or(usual.naif_id),
+            ..usual
+        }
     }
-}
-
-fn or(given: Option<String>, default: &str) -> String {
-    given.unwrap_or_else(|| default.to_owned())
 }
 
 /// A civil time; a closing Z, which the format allows for UTC, is taken.

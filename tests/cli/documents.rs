@@ -100,6 +100,9 @@ fn versions_in_the_documents_are_those_of_the_sources() {
     let version = format!("\nversion: {}\n", env!("CARGO_PKG_VERSION"));
     assert!(read("CITATION.cff").contains(&version), "CITATION.cff: expected{version}");
 
+    let version = format!("\nversion = \"{}\"\n", env!("CARGO_PKG_VERSION"));
+    assert!(read("python/Cargo.toml").contains(&version), "python/Cargo.toml: expected{version}");
+
     let package: Value =
         serde_json::from_str(&read("crates/report/page/package.json")).expect("JSON");
     let notice = read("NOTICE");
@@ -114,7 +117,7 @@ fn documents() -> Vec<PathBuf> {
     let mut found = Vec::new();
     let crates = std::fs::read_dir(root().join("crates")).expect("crates");
     let crates = crates.map(|entry| entry.expect("a crate").path());
-    let folders = [root(), root().join("docs"), root().join("ipopt-sys")];
+    let folders = [root(), root().join("docs"), root().join("ipopt-sys"), root().join("python")];
     for folder in folders.into_iter().chain(crates) {
         let files = std::fs::read_dir(folder).expect("a folder");
         let files = files.map(|entry| entry.expect("a file").path());

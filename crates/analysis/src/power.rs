@@ -51,6 +51,16 @@ impl Accounting {
     pub const ALL: [Self; 4] =
         [Self::Signed, Self::Absolute, Self::WithoutRegeneration, Self::WithRegeneration];
 
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Signed => "signed",
+            Self::Absolute => "absolute",
+            Self::WithoutRegeneration => "without_regeneration",
+            Self::WithRegeneration => "with_regeneration",
+        }
+    }
+
     /// Power drawn, W, for the mechanical power of one joint.
     pub fn drawn_w(self, mechanical_w: f64, efficiency: f64) -> f64 {
         match self {

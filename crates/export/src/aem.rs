@@ -5,13 +5,16 @@
 //! project writes it, body → inertial by Hamilton's product, its scalar moved to the end.
 
 use std::fmt::Write;
+use std::time::SystemTime;
 
-use jiff::SignedDuration;
 use jiff::civil::DateTime;
+use jiff::tz::Offset;
+use jiff::{SignedDuration, Timestamp};
 use righting_results::{Node, Solution, Trajectory};
 
 use crate::ExportError;
 use crate::attitude::{numbers, plain, value};
+use crate::defaults::{DEFAULT_EPOCH, DEFAULT_FRAME, DEFAULT_TIME_SYSTEM};
 
 /// What a message says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +35,24 @@ pub struct AemOptions {
     pub inertial_frame: String,
     /// The time system of all time tags.
     pub time_system: String,
+}
+
+impl AemOptions {
+    /// Of a maneuver of a system: in UTC and EME2000 from J2000's noon on, made now by RIGHTING, for a spacecraft
+    /// without a designator.
+    pub fn new(maneuver: String, system: &str) -> Self {
+        let now = Timestamp::try_from(SystemTime::now()).unwrap_or_default();
+        Self {
+            maneuver,
+            epoch: DEFAULT_EPOCH,
+            creation_date: Offset::UTC.to_datetime(now),
+            originator: "RIGHTING".to_owned(),
+            object_name: system.to_owned(),
+            object_id: "UNKNOWN".to_owned(),
+            inertial_frame: DEFAULT_FRAME.to_owned(),
+            time_system: DEFAULT_TIME_SYSTEM.to_owned(),
+        }
+    }
 }
 
 /// Name of the body frame.

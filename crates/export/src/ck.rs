@@ -9,6 +9,7 @@ use righting_scenario::error::Mismatch;
 use crate::ExportError;
 use crate::attitude::{plain, unit};
 use crate::daf::Daf;
+use crate::defaults::{DEFAULT_EPOCH, DEFAULT_FRAME, DEFAULT_TIME_SYSTEM};
 use crate::time_scales::ephemeris_time_s;
 
 /// What kernels say beyond the trajectory.
@@ -26,6 +27,23 @@ pub struct CkOptions {
     pub object_name: String,
     /// NAIF's number of the spacecraft, below zero. The body frame has this times 1000.
     pub naif_id: i32,
+}
+
+/// The spacecraft's number where none is given: one that no mission has.
+const NO_NAIF_ID: i32 = -999;
+
+impl CkOptions {
+    /// Of a maneuver of a system: in UTC and EME2000 from J2000's noon on.
+    pub fn new(maneuver: String, system: &str) -> Self {
+        Self {
+            maneuver,
+            epoch: DEFAULT_EPOCH,
+            time_system: DEFAULT_TIME_SYSTEM.to_owned(),
+            inertial_frame: DEFAULT_FRAME.to_owned(),
+            object_name: system.to_owned(),
+            naif_id: NO_NAIF_ID,
+        }
+    }
 }
 
 /// The three kernels that together tell the attitude.

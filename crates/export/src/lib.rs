@@ -19,6 +19,7 @@ mod attitude;
 mod ck;
 mod columns;
 mod daf;
+mod defaults;
 mod error;
 mod flight;
 mod joint_trajectory;

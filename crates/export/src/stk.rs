@@ -7,6 +7,7 @@ use righting_results::{Solution, Trajectory};
 
 use crate::ExportError;
 use crate::attitude::{numbers, plain, value};
+use crate::defaults::{DEFAULT_EPOCH, DEFAULT_FRAME};
 
 /// What an attitude file says beyond the trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +18,13 @@ pub struct StkOptions {
     pub epoch: DateTime,
     /// The inertial frame that the plan's inertial axes are; EME2000 is called J2000 in the file.
     pub inertial_frame: String,
+}
+
+impl StkOptions {
+    /// Of a maneuver: in EME2000 from J2000's noon on.
+    pub fn new(maneuver: String) -> Self {
+        Self { maneuver, epoch: DEFAULT_EPOCH, inertial_frame: DEFAULT_FRAME.to_owned() }
+    }
 }
 
 /// The attitude and the angular rate at every node as an STK attitude file.

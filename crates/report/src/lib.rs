@@ -60,7 +60,7 @@ mod svg;
 mod table;
 mod turn_rates;
 
-pub use asked::planned_phrase as maneuver_phrase;
+pub use asked::{phrase as asked_phrase, planned_phrase as maneuver_phrase};
 pub use attitude::attitude_svg;
 pub use clearances::clearances_svg;
 pub use convergence::convergence_svg;

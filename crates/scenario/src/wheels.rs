@@ -87,7 +87,18 @@ impl WheelArray {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let rows: WheelFile = Document::read(file, FileKind::Wheels)?.decode()?;
+        Self::of(&Document::read(file, FileKind::Wheels)?.decode()?, file)
+    }
+
+    /// The same of the text of a file; `file` names it in errors.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        Self::of(&Document::parse(file, text, FileKind::Wheels)?.decode()?, file)
+    }
+
+    fn of(rows: &WheelFile, file: &Path) -> Result<Self, Error> {
         let place = Location::root(file).key("wheels");
         if !(1..=MAX_WHEELS).contains(&rows.wheels.len()) {
             let allowed = format!("an array of 1 to {MAX_WHEELS} wheels");

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use righting_sweep::{
-    CaseStatus, Flown, Outcome, Record, RunFacts, Shard, Slews, Summary, Sweep, SweepFolder, Table,
-    Trouble,
+    CaseStatus, ColumnCells, Flown, Outcome, Record, RunFacts, Shard, Slews, Summary, Sweep,
+    SweepFolder, Table, Trouble,
 };
 
 /// Three axes, two angles.
@@ -67,6 +67,26 @@ fn rows_stand_in_the_order_of_the_plan_and_a_success_beats_a_crash() {
         lines[4].ends_with(",20,crashed,false,,,,,0,\"signal 9, \"\"killed\"\"\",0.5,1"),
         "{csv}"
     );
+}
+
+#[test]
+fn columns_hold_what_the_csv_says() {
+    let (_place, folder) = folder();
+    let table = Table::read(&folder).unwrap();
+    let columns = table.columns();
+    let mut csv = Vec::new();
+    table.write_csv(&mut csv).unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    let heads: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    assert_eq!(columns.iter().map(|column| &*column.name).collect::<Vec<_>>(), heads);
+    let cells = |name: &str| &columns.iter().find(|column| column.name == name).unwrap().cells;
+    let [yes, no] = [true, false];
+    assert_eq!(cells("verified"), &ColumnCells::Flag(vec![yes, yes, yes, no, yes]));
+    assert_eq!(cells("angle"), &ColumnCells::Number(vec![10.0, 20.0, 10.0, 20.0, 10.0]));
+    assert_eq!(cells("attempts"), &ColumnCells::Whole(vec![1; 5]));
+    let ColumnCells::Text(reasons) = cells("reason") else { panic!("texts") };
+    assert_eq!(reasons[3].as_deref(), Some("signal 9, \"killed\""));
+    assert!(reasons[0].is_none());
 }
 
 #[test]
