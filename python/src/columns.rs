@@ -17,6 +17,8 @@ pub struct Columns {
     pub joint_angles_rad: Py<PyArray2<f64>>,
     pub joint_rates_rad_s: Py<PyArray2<f64>>,
     pub joint_accelerations_rad_s2: Py<PyArray2<f64>>,
+    /// None where accelerations are held.
+    pub joint_jerks_rad_s3: Option<Py<PyArray2<f64>>>,
     pub joint_torques_n_m: Py<PyArray2<f64>>,
     pub power_w: Py<PyArray1<f64>>,
 }
@@ -42,6 +44,10 @@ impl Columns {
             joint_accelerations_rad_s2: of_intervals(|interval| {
                 &interval.joint_accelerations_rad_s2
             })?,
+            joint_jerks_rad_s3: trajectory
+                .has_jerks()
+                .then(|| of_intervals(|interval| &interval.joint_jerks_rad_s3))
+                .transpose()?,
             joint_torques_n_m: of_intervals(|interval| &interval.joint_torques_n_m)?,
             power_w: vector(py, nodes.iter().map(|node| node.power_w).collect()),
         })
@@ -62,6 +68,7 @@ pub fn to_tuple<'py>(py: Python<'py>, columns: &Columns) -> PyResult<Bound<'py, 
         &columns.joint_accelerations_rad_s2,
         &columns.joint_torques_n_m,
     ];
+    let matrices = matrices.into_iter().chain(&columns.joint_jerks_rad_s3);
     let matrices = matrices.map(|array| array.bind(py).clone().into_any());
     PyTuple::new(py, vectors.into_iter().chain(matrices).collect::<Vec<_>>())
 }
@@ -96,10 +103,16 @@ pub fn trajectory(arrays: &Bound<'_, PyTuple>) -> PyResult<Trajectory> {
             })
         })
         .collect();
+    let mut jerks = match arrays.len() {
+        ..=10 => Vec::new(),
+        _ => matrix(10)?,
+    }
+    .into_iter();
     let intervals = matrix(8)?.into_iter().zip(matrix(9)?);
     let intervals = intervals
         .map(|(joint_accelerations_rad_s2, joint_torques_n_m)| ControlInterval {
             joint_accelerations_rad_s2,
+            joint_jerks_rad_s3: jerks.next().unwrap_or_default(),
             joint_torques_n_m,
         })
         .collect();

@@ -13,7 +13,8 @@ use crate::json::to_python;
 use crate::plan::Plan;
 use crate::turn::alone;
 
-/// Flights of one plan with spacecraft that are not as planned, each open loop and with replans. Arrays have one entry
+/// Flights of one plan with spacecraft that are not as planned, each open loop, and with what is done about it. Arrays
+/// have one entry
 /// a flight, NaN where one could not be followed to its end.
 #[pyclass(frozen, module = "righting")]
 pub struct Flights(Vec<Flight>);
@@ -48,16 +49,16 @@ impl Flights {
         self.0.len()
     }
 
-    /// Angle between the attitude at the end and the target with replans, deg.
+    /// Angle between the attitude at the end and the target with what is done about it, deg.
     #[getter]
     fn final_error_deg(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.of_ends(py, |flight| flight.replanned, |end| end.error_rad)
+        self.of_ends(py, |flight| flight.flown, |end| end.error_rad)
     }
 
-    /// Angular rate of the base at the end with replans, deg/s.
+    /// Angular rate of the base at the end with what is done about it, deg/s.
     #[getter]
     fn final_rate_deg_s(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.of_ends(py, |flight| flight.replanned, |end| end.rate_rad_s)
+        self.of_ends(py, |flight| flight.flown, |end| end.rate_rad_s)
     }
 
     /// Angle between the attitude at the end and the target, open loop, deg.
@@ -89,10 +90,10 @@ impl Flights {
         let summary = Summary::of(&self.0);
         let shown = |median: Option<f64>| median.map_or("none".to_owned(), |m| format!("{m:.3}"));
         format!(
-            "Flights({} of {} to their end; median error {} deg with replans, {} deg open loop)",
+            "Flights({} of {} to their end; median error {} deg, {} deg open loop)",
             summary.completed,
             summary.flights,
-            shown(summary.replanned.final_error_deg.median),
+            shown(summary.flown.final_error_deg.median),
             shown(summary.open_loop.final_error_deg.median)
         )
     }

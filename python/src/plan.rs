@@ -7,7 +7,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 use righting_analysis::PowerProfile;
 use righting_analysis::power::PAPER_EFFICIENCY;
-use righting_flight::{Sensors, Settings, Spreads};
+use righting_flight::{Control, Sensors, Settings, Spreads};
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::json::FileKind;
 use righting_verifier::{Verified, verify_directory};
@@ -272,10 +272,17 @@ impl Plan {
         Ok(self.columns(py)?.joint_rates_rad_s.clone_ref(py))
     }
 
-    /// Joint accelerations, the control: row k holds from node k to node k + 1, rad/s². Shape (N, j).
+    /// Joint accelerations at the first node of each step, rad/s². They are held to the next node, unless jerks are
+    /// limited: then they are linear. Shape (N, j).
     #[getter]
     fn joint_accelerations_rad_s2(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         Ok(self.columns(py)?.joint_accelerations_rad_s2.clone_ref(py))
+    }
+
+    /// Joint jerks, held over each step, rad/s³; None where jerks are not limited. Shape (N, j).
+    #[getter]
+    fn joint_jerks_rad_s3(&self, py: Python<'_>) -> PyResult<Option<Py<PyArray2<f64>>>> {
+        Ok(self.columns(py)?.joint_jerks_rad_s3.as_ref().map(|jerks| jerks.clone_ref(py)))
     }
 
     /// Joint torques at the first node of each step, N m. Shape (N, j).
@@ -313,13 +320,16 @@ impl Plan {
         Ok(Power::new(profile.map_err(Failure::from)?, drives, wheels, efficiency)?)
     }
 
-    /// Flies the plan many times with spacecraft that are not as planned: open loop, and with the rest of the maneuver
-    /// planned anew on the way. Flight i is the same whatever the number of flights.
+    /// Flies the plan many times with spacecraft that are not as planned: open loop, and with what is
+    /// done about it. Flight i is the same whatever the number of flights.
     ///
     /// Parameters
     /// ----------
     /// flights, seed
     ///     How many, and the seed of all draws.
+    /// mode
+    ///     What is done about it: ``"replan"``, the rest of the maneuver is planned anew time and again; ``"feedback"``,
+    ///     the gains of the plan correct every step of a slew; ``"open-loop"``, nothing.
     /// period_s, deadline_ms
     ///     Time from one replan to the next; a replan that takes longer than the deadline is missed.
     /// mass_percent, inertia_percent, center_m, mount_m
@@ -333,7 +343,7 @@ impl Plan {
     ///     The plan was not verified.
     /// InputError
     ///     An argument is not a number of its range.
-    #[pyo3(signature = (flights=100, *, seed=0, period_s=1.0, deadline_ms=None, mass_percent=10.0,
+    #[pyo3(signature = (flights=100, *, seed=0, mode="replan", period_s=1.0, deadline_ms=None, mass_percent=10.0,
         inertia_percent=10.0, center_m=0.0, mount_m=0.0, attitude_noise_deg=0.0, joint_noise_deg=0.0,
         joint_rate_noise_deg_s=0.0))]
     #[allow(clippy::too_many_arguments)] // Each has a name where it is called.
@@ -342,6 +352,7 @@ impl Plan {
         py: Python<'_>,
         flights: usize,
         seed: u64,
+        mode: &str,
         period_s: f64,
         deadline_ms: Option<f64>,
         mass_percent: f64,
@@ -352,7 +363,18 @@ impl Plan {
         joint_noise_deg: f64,
         joint_rate_noise_deg_s: f64,
     ) -> PyResult<Flights> {
+        let control = match mode {
+            "replan" => Control::Replan,
+            "feedback" => Control::Feedback,
+            "open-loop" => Control::OpenLoop,
+            other => {
+                let found = format!("{other:?}");
+                let expected = "\"replan\", \"feedback\" or \"open-loop\"";
+                return Err(Failure::Argument { name: "mode", found, expected }.into());
+            }
+        };
         let settings = Settings {
+            control,
             spreads: Spreads {
                 masses: share("mass_percent", mass_percent)?,
                 inertias: share("inertia_percent", inertia_percent)?,

@@ -88,7 +88,7 @@ def test_motors_draw_what_joints_and_losses_take(scenarios: Path, plan: rt.Plan)
     assert power.motors["peak_currents_a"].shape == (2,)
 
 
-def test_flights_with_replans_end_nearer_than_open_loop(scenarios: Path) -> None:
+def test_flights_with_replans_or_feedback_end_nearer_than_open_loop(scenarios: Path) -> None:
     plan = rt.solve(scenarios / "slew_2dof.json")
     flights = plan.fly(4, period_s=5.0, seed=3)
     assert len(flights) == 4 == len(flights.final_error_deg)
@@ -96,7 +96,10 @@ def test_flights_with_replans_end_nearer_than_open_loop(scenarios: Path) -> None
     assert flights.summary["open_loop"]["final_error_deg"]["max"] == flights.open_loop_error_deg.max()
     again = plan.fly(2, period_s=5.0, seed=3)
     assert np.array_equal(again.final_error_deg, flights.final_error_deg[:2])
-    for wrong in ({"flights": 0}, {"period_s": 0.0}, {"mass_percent": 100.0}, {"center_m": -1.0}):
+    corrected = plan.fly(4, mode="feedback", seed=3)
+    assert np.array_equal(corrected.open_loop_error_deg, flights.open_loop_error_deg)
+    assert np.median(corrected.final_error_deg) < np.median(corrected.open_loop_error_deg)
+    for wrong in ({"flights": 0}, {"mode": "none"}, {"period_s": 0.0}, {"mass_percent": 100.0}, {"center_m": -1.0}):
         with pytest.raises(rt.InputError) as raised:
             plan.fly(**wrong)
         assert raised.value.field == next(iter(wrong))

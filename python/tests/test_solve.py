@@ -63,6 +63,20 @@ def test_a_plan_is_verified_again_and_says_what_was_checked(plan: rt.Plan) -> No
     assert plan.raise_for_status() is plan
 
 
+def test_limited_jerks_have_an_array(plan: rt.Plan, scenarios: Path) -> None:
+    assert plan.joint_jerks_rad_s3 is None
+    smooth = rt.Scenario(scenarios / "slew_2dof.json").to_dict()
+    for link in smooth["system"]["links"]:
+        link["jerk_max_deg_s3"] = 20.0
+    made = rt.solve(smooth)
+    assert made.verified and made.joint_jerks_rad_s3 is not None
+    step_s = made.duration_s / made.steps
+    accelerations = made.joint_accelerations_rad_s2
+    assert np.allclose(accelerations[1:], accelerations[:-1] + step_s * made.joint_jerks_rad_s3[:-1], atol=1e-9)
+    copy = pickle.loads(pickle.dumps(made))
+    assert np.array_equal(copy.joint_jerks_rad_s3, made.joint_jerks_rad_s3)
+
+
 def test_a_plan_survives_its_folder(plan: rt.Plan, tmp_path: Path) -> None:
     plan.save(tmp_path / "plan")
     names = {file.name for file in (tmp_path / "plan").iterdir()}

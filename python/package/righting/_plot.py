@@ -38,8 +38,12 @@ def plot(plan: Plan) -> Figure:
     for axis, label, places, values, names in columns:
         axis.plot(places, values, label=names)
         axis.set_ylabel(label)
-    held = np.degrees(plan.joint_accelerations_rad_s2)
-    axes[2, 0].step(time_s, np.vstack([held, held[-1:]]), where="post", label=joints)
+    accelerations = np.degrees(plan.joint_accelerations_rad_s2)
+    if plan.joint_jerks_rad_s3 is None:
+        axes[2, 0].step(time_s, np.vstack([accelerations, accelerations[-1:]]), where="post", label=joints)
+    else:
+        # They are linear between nodes, and zero at the end.
+        axes[2, 0].plot(time_s, np.vstack([accelerations, np.zeros_like(accelerations[:1])]), label=joints)
     axes[2, 0].set_ylabel("joint acceleration [deg/s²]")
     axes[2, 1].plot(starts_s, plan.joint_torques_n_m, label=joints)
     axes[2, 1].set_ylabel("joint torque [N m]")

@@ -186,6 +186,8 @@ class Plan:
     @property
     def joint_accelerations_rad_s2(self) -> _Array: ...
     @property
+    def joint_jerks_rad_s3(self) -> _Array | None: ...
+    @property
     def joint_torques_n_m(self) -> _Array: ...
     @property
     def power_w(self) -> _Array: ...
@@ -197,6 +199,7 @@ class Plan:
         flights: int = 100,
         *,
         seed: int = 0,
+        mode: str = "replan",
         period_s: float = 1.0,
         deadline_ms: float | None = None,
         mass_percent: float = 10.0,
