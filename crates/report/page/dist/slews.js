@@ -1,4 +1,4 @@
-/*! Generated from sources 29d37b653d56d9ba54341d8acef47525c4857dae5ffb3f0c7de86abf585b0aa4 */
+/*! Generated from sources aa179706ee8e7c4115be575a2d31c09557ae3ca2d27417065b41a187472a816d */
 /*!
 three
 
