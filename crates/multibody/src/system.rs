@@ -110,6 +110,11 @@ impl System {
         }
     }
 
+    /// Length of an arm in rows: of all links together, m. Of bodies, as [`size_m`](Self::size_m).
+    pub fn length_m(&self) -> f64 {
+        self.rows().map_or_else(|| self.size_m(), Rows::length_m)
+    }
+
     /// The length that the system is measured by: that of the arm stretched out, mount and all, or the
     /// farthest that a joint or a centre of mass can be from the body-frame origin, m. Never zero.
     pub fn size_m(&self) -> f64 {

@@ -198,7 +198,7 @@ fn row_frame(row: &file::Link, model: &System) -> InertialFrame {
 /// Whether a link has a segment at all.
 fn has_length(model: &System, link: usize) -> bool {
     let length_m = |rows: &Rows| rows.links[link].length_m();
-    model.rows().map_or(0.0, length_m) > NO_LENGTH * model.size_m()
+    model.rows().map_or(0.0, length_m) > NO_LENGTH * model.length_m()
 }
 
 /// A radius that stands beside shapes would mean nothing.

@@ -160,7 +160,7 @@ impl CollisionModel {
     /// Links along the arm's own line that keep no clearance though there is an arm between them, since
     /// that is no longer than what they would have to keep; with its length, m.
     pub(crate) fn neighbors_across_links(&self, system: &SystemDescription) -> Vec<(Between, f64)> {
-        let rounding_m = NO_LENGTH * system.model.size_m();
+        let rounding_m = NO_LENGTH * system.model.length_m();
         arm_pairs(system, self.clearance_m)
             .filter(|(pair, between_m)| {
                 *between_m > rounding_m && *between_m <= farthest_neighbors_m(system, pair)
@@ -230,7 +230,7 @@ fn arm_pairs(
 
 /// The longest arm between two solids that keep no clearance, m.
 fn farthest_neighbors_m(system: &SystemDescription, pair: &Pair) -> f64 {
-    let rounding_m = NO_LENGTH * system.model.size_m();
+    let rounding_m = NO_LENGTH * system.model.length_m();
     match &pair.between {
         Between::Pieces(Piece { shape: None, .. }, Piece { shape: None, .. }) => {
             pair.least_of_cores_m().max(rounding_m)

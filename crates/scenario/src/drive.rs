@@ -72,9 +72,7 @@ impl Drive {
     /// Checks the drive of a joint of the system that was read from `place`.
     pub(crate) fn of_joint(row: &file::JointRow, place: &Location) -> Result<Self, Error> {
         let drive_place = row.at(place).key("drive");
-        row.drive
-            .as_ref()
-            .map_or(Ok(Self::default()), |drive| Self::from_file(drive, &drive_place))
+        row.drive.as_ref().map_or(Ok(Self::default()), |drive| Self::from_file(drive, &drive_place))
     }
 
     fn from_file(drive: &file::Drive, place: &Location) -> Result<Self, Error> {

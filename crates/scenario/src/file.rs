@@ -377,7 +377,7 @@ pub struct System {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dh_convention: Option<DhConvention>,
     /// A serial arm: one row a joint, from the base to the tip.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, deserialize_with = "some_links", skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(min = 1, max = 32))]
     pub links: Vec<Link>,
     /// A tree of bodies on joints, in any order, instead of `mount`, `dh_convention`, `links` and `payload`.
@@ -605,6 +605,15 @@ fn require_slew_target(schema: &mut schemars::Schema) {
             }
         ]),
     );
+}
+
+/// An empty list is not the same as none.
+fn some_links<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Link>, D::Error> {
+    let links = Vec::deserialize(deserializer)?;
+    match links.is_empty() {
+        true => Err(serde::de::Error::custom("an array of 1 to 32 links")),
+        false => Ok(links),
+    }
 }
 
 fn is_false(value: &bool) -> bool {

@@ -27,8 +27,11 @@ pub(crate) fn rows(
         file::DhConvention::Standard => multibody::DhConvention::Standard,
         file::DhConvention::Modified => multibody::DhConvention::Modified,
     };
-    if !(1..=MAX_JOINTS).contains(&system.links.len()) {
-        let allowed = format!("an array of 1 to {MAX_JOINTS} links");
+    let allowed = format!("an array of 1 to {MAX_JOINTS} links");
+    if system.links.is_empty() {
+        return Err(links_place.missing(allowed));
+    }
+    if system.links.len() > MAX_JOINTS {
         return Err(links_place.refuse(format!("{} links", system.links.len()), allowed));
     }
     let rows = system.links.iter().enumerate();

@@ -106,6 +106,7 @@ impl SystemDescription {
         let (base, keep_out_radius_m) = base(&system.base, &base_place)?;
         let keep_out = keep_out(&system.base, &base_place)?;
         check_kind_of_arm(system, place)?;
+        let names = Names::new(system, place)?;
         let arm = match &system.bodies {
             Some(bodies) => Arm::Bodies(jointed_bodies(bodies, &system.base, place, notes)?),
             None => Arm::Rows(rows(system, place, notes)?),
@@ -121,7 +122,7 @@ impl SystemDescription {
         let exempt_bodies = system.bodies.iter().flatten().map(|body| body.body_exempt);
         Ok(Self {
             name: system.name.clone(),
-            names: Names::new(system, place)?,
+            names,
             keep_out_radius_m,
             keep_out,
             solids: solids(system, &model, place)?,

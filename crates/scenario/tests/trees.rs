@@ -137,7 +137,7 @@ fn what_is_wrong_is_named() {
         ),
         (
             |s| s["bodies"][1]["joint"]["angle_min_deg"] = json!(15),
-            "initial.joint_angles_deg[0]: found 10, expected 15 to Infinity",
+            "initial.joint_angles_deg[0]: found 10, expected 15 to inf",
         ),
         (
             |s| {
