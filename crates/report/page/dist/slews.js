@@ -1,4 +1,4 @@
-/*! Generated from sources aa179706ee8e7c4115be575a2d31c09557ae3ca2d27417065b41a187472a816d */
+/*! Generated from sources 387f4586d67434a192e5a0073342934cf0b77b9392819018208b4e81b0e33309 */
 /*!
 three
 
