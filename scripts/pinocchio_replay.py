@@ -45,8 +45,8 @@ def main() -> int:
 def replayed(scenario: dict, table: Path) -> list[str]:
     """What does not agree."""
     system = scenario["system"]
-    model = build(system)
-    time_s, states, controls, torques = read(table, len(system["links"]))
+    model, order = build(system)
+    time_s, states, controls, torques = read(table, order)
     data, joints = model.createData(), controls.shape[1]
     position, attitude = states[0, :3], states[0, 3:7]
     angles, rates = states[0, 13 : 13 + joints], states[0, 13 + joints :]
@@ -109,8 +109,8 @@ def torque(model: pin.Model, data: pin.Data, state: np.ndarray, u: np.ndarray) -
     return (mass @ np.r_[base, u] + bias)[6:]
 
 
-def build(system: dict) -> pin.Model:
-    """The model of a resolved system."""
+def build(system: dict) -> tuple[pin.Model, list[int]]:
+    """The model of a resolved system, and the joint coordinate of the plan that each of its joints is."""
     model = pin.Model()
     model.gravity.linear = np.zeros(3)
     base = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
@@ -119,7 +119,10 @@ def build(system: dict) -> pin.Model:
         inertia = np.eye(3) * mass_kg * system["base"]["cube_side_m"] ** 2 / 6
     else:
         inertia = np.array(system["base"]["inertia_kg_m2"])
-    model.appendBodyToJoint(base, pin.Inertia(mass_kg, np.zeros(3), inertia), pin.SE3.Identity())
+    center = np.array(system["base"].get("center_of_mass_m") or [0, 0, 0], float)
+    model.appendBodyToJoint(base, pin.Inertia(mass_kg, center, inertia), pin.SE3.Identity())
+    if "bodies" in system:
+        return model, add_bodies(model, base, system)
     quaternion = system["mount"].get("rotation") or [1.0, 0.0, 0.0, 0.0]
     frame = pin.SE3(rotation(np.array(quaternion)), np.array(system["mount"]["position_m"], float))
     parent = base
@@ -149,7 +152,38 @@ def build(system: dict) -> pin.Model:
     if payload:
         inertia = np.array(payload.get("inertia_kg_m2") or np.zeros((3, 3)))
         model.appendBodyToJoint(parent, pin.Inertia(payload["mass_kg"], np.zeros(3), inertia), frame)
-    return model
+    return model, list(range(len(system["links"])))
+
+
+def add_bodies(model: pin.Model, base: int, system: dict) -> list[int]:
+    """A tree of bodies, each after the one that carries it."""
+    bodies = system["bodies"]
+    moving = [body["name"] for body in bodies if body["joint"]["type"] != "fixed"]
+    # The joint that each body moves with, and the body's frame in the joint's.
+    carried = {system["base"].get("name", "base"): (base, pin.SE3.Identity())}
+    order = []
+    while len(carried) <= len(bodies):
+        for body in bodies:
+            name, joint = body["name"], body["joint"]
+            if name in carried or body["parent"] not in carried:
+                continue
+            parent, frame = carried[body["parent"]]
+            position = np.array(joint.get("position_m") or [0, 0, 0], float)
+            if joint.get("rotation"):
+                turn = rotation(np.array(joint["rotation"]))
+            else:
+                turn = pin.rpy.rpyToMatrix(np.radians(joint.get("rpy_deg") or [0, 0, 0]))
+            frame = frame * pin.SE3(turn, position)
+            if joint["type"] != "fixed":
+                axis = np.array(joint.get("axis") or [0, 0, 1], float)
+                kind = pin.JointModelRevoluteUnaligned(axis / np.linalg.norm(axis))
+                parent, frame = model.addJoint(parent, kind, frame, name), pin.SE3.Identity()
+                order.append(moving.index(name))
+            carried[name] = (parent, frame)
+            center = np.array(body.get("center_of_mass_m") or [0, 0, 0], float)
+            inertia = np.array(body.get("inertia_kg_m2") or np.zeros((3, 3)), float)
+            model.appendBodyToJoint(parent, pin.Inertia(body["mass_kg"], center, inertia), frame)
+    return order
 
 
 def add_link(
@@ -170,15 +204,17 @@ def add_link(
     model.appendBodyToJoint(body, pin.Inertia(mass_kg, center, inertia), pin.SE3.Identity())
 
 
-def read(table: Path, joints: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def read(table: Path, order: list[int]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Times, states, controls and torques, the joints in the order of the model."""
     with open(table, encoding="utf-8") as file:
         rows = list(csv.reader(file))[1:]
-    states = np.array([[float(cell) for cell in row[1 : 14 + 2 * joints]] for row in rows])
+    joints, places = len(order), np.array(order)
+    cells = lambda chosen, first, count: np.array([[float(x) for x in row[first : first + count]] for row in chosen])
+    base = cells(rows, 1, 13)
+    angles, rates = (cells(rows, 14 + k * joints, joints)[:, places] for k in (0, 1))
+    controls, torques = (cells(rows[:-1], 14 + k * joints, joints)[:, places] for k in (2, 3))
     time_s = np.array([float(row[0]) for row in rows])
-    first = 14 + 2 * joints
-    controls = np.array([[float(cell) for cell in row[first : first + joints]] for row in rows[:-1]])
-    torques = np.array([[float(cell) for cell in row[first + joints : first + 2 * joints]] for row in rows[:-1]])
-    return time_s, states, controls, torques
+    return time_s, np.hstack([base, angles, rates]), controls, torques
 
 
 def configuration(position: np.ndarray, quaternion: np.ndarray, angles: np.ndarray) -> np.ndarray:

@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.json {
         output::print(&json)
     } else {
-        output::print(&describe(&printed, &abilities, &files))
+        output::print(&describe(&printed, &system.names, &abilities, &files))
     }
 }
 

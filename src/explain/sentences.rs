@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use righting_analysis::Abilities;
 use righting_report::short;
+use righting_scenario::Names;
 
 use super::printed::{Asked, Inertia, Loops, Printed};
 
@@ -12,19 +13,24 @@ use super::printed::{Asked, Inertia, Loops, Printed};
 const HARDLY: f64 = 0.1;
 
 /// All of it.
-pub fn describe(printed: &Printed<'_>, abilities: &Abilities, files: &[PathBuf]) -> String {
+pub fn describe(
+    printed: &Printed<'_>,
+    names: &Names,
+    abilities: &Abilities,
+    files: &[PathBuf],
+) -> String {
     let joints = if printed.joints == 1 { "joint" } else { "joints" };
     let mut text = format!("{}: {} {joints}\n", printed.system, printed.joints);
     let mut line = |name: &str, sentence: &str| {
         writeln!(text, "  {name:<9}{sentence}").expect("a string takes all that is written");
     };
-    if let Some(locked) = listed(&printed.locked_joints) {
+    if let Some(locked) = listed(&printed.locked_joints, names) {
         line("locked", &format!("{locked} cannot move."));
     }
-    if let Some(idle) = listed(&printed.idle_joints) {
+    if let Some(idle) = listed(&printed.idle_joints, names) {
         line("idle", &format!("{idle} can move, but nothing of it reaches the base."));
     }
-    line("axes", &about_axes(printed, abilities));
+    line("axes", &about_axes(printed, names, abilities));
     for (name, sentence) in about_loops(&printed.loops) {
         line(name, &sentence);
     }
@@ -51,13 +57,13 @@ pub fn describe(printed: &Printed<'_>, abilities: &Abilities, files: &[PathBuf])
     text
 }
 
-fn about_axes(printed: &Printed<'_>, abilities: &Abilities) -> String {
+fn about_axes(printed: &Printed<'_>, names: &Names, abilities: &Abilities) -> String {
     let axes = &abilities.axes;
     match (printed.rank, &axes.effective_joints[..]) {
         (0, _) => "Nothing that this arm's joints do turns the base.".to_owned(),
         (_, &[joint]) if printed.only_axis.is_none() => format!(
-            "Only joint {} turns the base: its attitudes are a curve, about an axis that moves with it.",
-            joint + 1
+            "Only {} turns the base: its attitudes are a curve, about an axis that moves with it.",
+            names.joint(joint)
         ),
         _ => match (axes.only_axis(), axes.are_joints_parallel) {
             (Some(axis), true) if axes.effective_joints.len() > 1 => format!(
@@ -149,8 +155,15 @@ fn verdict(asked: &Asked) -> String {
     format!("Nothing is known that makes it impossible. {needs}")
 }
 
-/// "Joint 3" or "Joints 1, 2 and 3".
-fn listed(joints: &[usize]) -> Option<String> {
+/// "Joint 3" or "Joints 1, 2 and 3", or by their names, of joints counted from one.
+fn listed(joints: &[usize], names: &Names) -> Option<String> {
+    let named: Option<Vec<String>> = joints
+        .iter()
+        .map(|joint| names.of_joint(joint.checked_sub(1)?).map(str::to_owned))
+        .collect();
+    if let Some(named) = named.filter(|named| !named.is_empty()) {
+        return Some(and(&named));
+    }
     let numbers: Vec<String> = joints.iter().map(usize::to_string).collect();
     match joints.len() {
         0 => None,

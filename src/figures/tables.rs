@@ -51,7 +51,7 @@ fn write_rows(text: &mut String, name: &str, system: &System) {
             first(name.to_owned()),
             first(system.base.mass_kg.to_string()),
             first(side.clone()),
-            first(format!("{:?}", system.dh_convention).to_lowercase()),
+            first(format!("{:?}", system.dh_convention.unwrap_or_default()).to_lowercase()),
             (i + 1).to_string(),
             link.mass_kg.to_string(),
             link.a_m.to_string(),

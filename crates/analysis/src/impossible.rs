@@ -42,8 +42,8 @@ pub enum Impossible {
     },
     /// Only one joint turns the base, and it does not pass the target.
     OneJoint {
-        /// The joint, counted from zero.
-        joint: usize,
+        /// What the joint is called.
+        name: String,
         /// The smallest angle between what it reaches and the target, deg.
         nearest_deg: f64,
         /// The angle asked, deg.
@@ -138,7 +138,7 @@ fn of_slew(scenario: &Scenario, slew: &Slew) -> Option<Impossible> {
         let nearest_rad = curve.smallest_miss_rad(&target);
         if curve.is_whole && nearest_rad > tolerance_rad {
             return Some(Impossible::OneJoint {
-                joint,
+                name: system.names.joint(joint),
                 nearest_deg: nearest_rad.to_degrees(),
                 angle_deg: angle_rad.to_degrees(),
                 axes: curve.axes_at(angle_rad),
@@ -191,12 +191,11 @@ impl fmt::Display for Impossible {
                     ),
                 }
             }
-            Self::OneJoint { joint, nearest_deg, angle_deg, axes, largest_deg } => {
+            Self::OneJoint { name, nearest_deg, angle_deg, axes, largest_deg } => {
                 write!(
                     f,
-                    "only joint {} of this arm turns the base, and not to the target; it comes no nearer than \
-                     {nearest_deg:.1}\u{b0}, and ",
-                    joint + 1
+                    "only {name} of this arm turns the base, and not to the target; it comes no nearer than \
+                     {nearest_deg:.1}\u{b0}, and "
                 )?;
                 if axes.is_empty() {
                     return write!(f, "it turns the base by {largest_deg:.1}\u{b0} at most");

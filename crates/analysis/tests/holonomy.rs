@@ -166,10 +166,11 @@ fn in_other_axes(scenario: &Scenario, turn: UnitQuaternion<f64>) -> Scenario {
             panic!("a resolved system is inline")
         };
         let matrix = turn.to_rotation_matrix();
-        system.mount.position_m = (matrix * Vector3::from(system.mount.position_m)).into();
-        let [w, x, y, z] = system.mount.rotation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        system.mount.as_mut().unwrap().position_m =
+            (matrix * Vector3::from(system.mount.as_mut().unwrap().position_m)).into();
+        let [w, x, y, z] = system.mount.as_mut().unwrap().rotation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
         let mount = turn * UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
-        system.mount.rotation = Some([mount.w, mount.i, mount.j, mount.k]);
+        system.mount.as_mut().unwrap().rotation = Some([mount.w, mount.i, mount.j, mount.k]);
         // A cube's inertia is the same in all axes.
         assert!(system.base.cube_side_m.is_some());
     })
@@ -207,7 +208,8 @@ fn other_body_axes_and_units_change_nothing_but_the_components() {
             };
             system.base.mass_kg *= mass;
             system.base.cube_side_m = system.base.cube_side_m.map(|side| side * length);
-            system.mount.position_m = system.mount.position_m.map(|x| x * length);
+            system.mount.as_mut().unwrap().position_m =
+                system.mount.as_mut().unwrap().position_m.map(|x| x * length);
             for link in &mut system.links {
                 link.mass_kg *= mass;
                 link.a_m *= length;

@@ -82,12 +82,12 @@ fn one_joint_reaches_its_curve_and_nothing_else() {
         only["angle_max_deg"] = json!(range_deg);
         Impossible::of(&slew([0.2, 0.0, 0.5], &[only], axis, angle_deg))
     };
-    let Some(Impossible::OneJoint { joint, nearest_deg, angle_deg, axes, largest_deg }) =
+    let Some(Impossible::OneJoint { name, nearest_deg, angle_deg, axes, largest_deg }) =
         of([1.0, 0.0, 0.0], 20.0, None)
     else {
         panic!("one joint turns the base, about no fixed axis")
     };
-    assert_eq!(joint, 0);
+    assert_eq!(name, "joint 1");
     assert!(0.1 < nearest_deg && nearest_deg <= 20.0, "{nearest_deg}");
     assert!((angle_deg - 20.0).abs() < 1e-9 && largest_deg > 20.0);
     assert!(!axes.is_empty());

@@ -1,6 +1,6 @@
-//! The arm as other programs take it: named bodies on named hinges.
+//! The arms as other programs take them: named bodies on named hinges.
 
-use righting_multibody::{Placement, RigidBody};
+use righting_multibody::{HingedBody, Placement, RigidBody};
 use righting_scenario::{JointLimits, SystemDescription};
 
 /// Name of the base.
@@ -8,12 +8,13 @@ pub(crate) const BASE: &str = "base";
 /// Name of the last frame, beyond the last body.
 pub(crate) const TIP: &str = "tip";
 
-/// A base with the bodies of its arm.
+/// A base with the bodies of its arms.
 pub(crate) struct Arm {
     pub base: RigidBody,
+    /// Depth first from the base: each after the one that carries it.
     pub hinges: Vec<Hinge>,
-    /// The last frame in the frame of the last body.
-    pub tip: Placement,
+    /// Of an arm in rows, the last frame in the frame of the last body.
+    pub tip: Option<Placement>,
 }
 
 /// A body and the hinge that turns it about its z axis.
@@ -22,7 +23,11 @@ pub(crate) struct Hinge {
     pub joint: String,
     /// Name of the body.
     pub link: String,
-    /// At joint angle zero, in the frame of the body before.
+    /// Place of the joint among the joint coordinates.
+    pub coordinate: usize,
+    /// The hinge of the body that carries it, by its place; none for the base.
+    pub parent: Option<usize>,
+    /// At joint angle zero, in the frame of the body that carries it.
     pub placement: Placement,
     pub body: RigidBody,
     pub limits: JointLimits,
@@ -33,28 +38,50 @@ pub(crate) struct Hinge {
 }
 
 impl Arm {
-    /// The arm of a system; locked joints hold their angle.
+    /// The arms of a system; locked joints hold their angle.
     pub fn new(system: &SystemDescription) -> Self {
         let bodies = system.model.hinged_bodies();
-        let hinges = bodies.into_iter().zip(&system.joint_limits).enumerate();
-        let hinge = |(index, (hinged, limits)): (usize, (_, &JointLimits))| {
-            let righting_multibody::HingedBody { placement, body, is_idle } = hinged;
-            Hinge {
-                joint: joint_name(index),
-                link: format!("link_{}", index + 1),
+        let mut hinges: Vec<Hinge> = Vec::with_capacity(bodies.len());
+        let mut ahead = carried_by(&bodies, None);
+        while let Some(coordinate) = ahead.pop() {
+            ahead.extend(carried_by(&bodies, Some(coordinate)));
+            let HingedBody { parent, placement, body, is_idle } = bodies[coordinate];
+            let limits = system.joint_limits[coordinate];
+            let place = |parent: usize| hinges.iter().position(|hinge| hinge.coordinate == parent);
+            hinges.push(Hinge {
+                joint: joint_name(system, coordinate),
+                link: link_name(system, coordinate),
+                coordinate,
+                parent: parent.and_then(place),
                 placement,
                 body,
-                limits: *limits,
+                limits,
                 is_idle,
                 held_rad: limits.is_locked().then_some(limits.angle_min_rad),
-            }
-        };
-        Self {
-            base: system.model.base_body(),
-            hinges: hinges.map(hinge).collect(),
-            tip: system.model.last_frame(),
+            });
         }
+        let frames = system.model.carried_frames();
+        let last = frames.last().map(|(_, placement)| *placement);
+        let tip = last.filter(|_| system.model.rows().is_some());
+        Self { base: system.model.base_body(), hinges, tip }
     }
+
+    /// The hinges of the bodies that a body carries, the base if none.
+    pub fn carried_by(&self, parent: Option<usize>) -> impl Iterator<Item = usize> + '_ {
+        (0..self.hinges.len()).filter(move |&index| self.hinges[index].parent == parent)
+    }
+
+    /// The one hinge on a body; none if there are none or several.
+    pub fn only_next(&self, index: usize) -> Option<&Hinge> {
+        let mut next = self.carried_by(Some(index));
+        let first = next.next()?;
+        next.next().is_none().then(|| &self.hinges[first])
+    }
+}
+
+/// The joints on a body, the last one first.
+fn carried_by(bodies: &[HingedBody], parent: Option<usize>) -> Vec<usize> {
+    (0..bodies.len()).rev().filter(|&index| bodies[index].parent == parent).collect()
 }
 
 impl Hinge {
@@ -86,7 +113,19 @@ impl Hinge {
     }
 }
 
-/// Name of a joint, counted from zero at the base.
-pub(crate) fn joint_name(index: usize) -> String {
-    format!("joint_{}", index + 1)
+/// Name of a joint, counted from zero.
+pub(crate) fn joint_name(system: &SystemDescription, joint: usize) -> String {
+    match system.names.of_joint(joint) {
+        Some(name) => name.to_owned(),
+        None => format!("joint_{}", joint + 1),
+    }
+}
+
+/// Name of the body that a joint turns.
+fn link_name(system: &SystemDescription, joint: usize) -> String {
+    let name = match system.model.rows() {
+        Some(_) => None,
+        None => system.model.body_of(joint).and_then(|body| system.names.of_body(body)),
+    };
+    name.map_or_else(|| format!("link_{}", joint + 1), str::to_owned)
 }

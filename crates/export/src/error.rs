@@ -39,6 +39,12 @@ pub enum ExportError {
         /// Where it ends.
         time_s: f64,
     },
+    /// The format takes one serial arm only.
+    #[error(
+        "system: {}",
+        Mismatch::new("joints that branch", "one serial arm: this format has no branches")
+    )]
+    Branches,
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -32,6 +32,9 @@ struct Flight {
 
 /// A joint that turns in a flight.
 struct FlownJoint {
+    /// Its hinge, by its place.
+    hinge: usize,
+    /// Its place among the joint coordinates.
     index: usize,
     /// The joints before it whose motion it makes too, and the sense of each.
     others: Vec<(usize, f64)>,
@@ -43,12 +46,13 @@ impl Flight {
         let start_rad = &trajectory.start().joint_angles_rad;
         let mut joints = Vec::new();
         let mut others: Vec<(usize, f64)> = Vec::new();
-        for (index, start_rad) in start_rad.iter().enumerate() {
-            let [hinge, next] = [index, index + 1].map(|index| arm.hinges.get(index));
-            let sense = hinge.zip(next).and_then(|(hinge, next)| hinge.shares_axis_with(next));
+        for index in 0..arm.hinges.len() {
+            let next = arm.only_next(index);
+            let sense = next.and_then(|next| arm.hinges[index].shares_axis_with(next));
             let hinge = &mut arm.hinges[index];
+            let start_rad = start_rad[hinge.coordinate];
             if hinge.is_idle {
-                hinge.held_rad.get_or_insert(*start_rad);
+                hinge.held_rad.get_or_insert(start_rad);
             }
             if hinge.held_rad.is_some() {
                 others.clear();
@@ -56,11 +60,14 @@ impl Flight {
             }
             match sense {
                 Some(sense) => {
-                    hinge.held_rad = Some(*start_rad);
-                    others.push((index, 1.0));
+                    hinge.held_rad = Some(start_rad);
+                    others.push((hinge.coordinate, 1.0));
                     others.iter_mut().for_each(|(_, of_other)| *of_other *= sense);
                 }
-                None => joints.push(FlownJoint { index, others: std::mem::take(&mut others) }),
+                None => {
+                    let others = std::mem::take(&mut others);
+                    joints.push(FlownJoint { hinge: index, index: hinge.coordinate, others });
+                }
             }
         }
         let torques = StepTorques::new(&scenario.system().model, trajectory)?;
@@ -75,7 +82,7 @@ impl Flight {
 
     /// Names of the joints that turn.
     fn names(&self) -> impl Iterator<Item = &str> {
-        self.joints.iter().map(|joint| self.arm.hinges[joint.index].joint.as_str())
+        self.joints.iter().map(|joint| self.arm.hinges[joint.hinge].joint.as_str())
     }
 
     /// Torques of the joints that turn, of rows of all joints.
@@ -91,7 +98,10 @@ impl Flight {
     /// Angles of the joints that turn, of rows of all joints.
     fn angles<'a>(&self, rows: impl Iterator<Item = &'a Vec<f64>>) -> Vec<f64> {
         let held = |joint: &FlownJoint| -> f64 {
-            let angle = |index: usize| self.arm.hinges[index].held_rad.unwrap_or_default();
+            let angle = |index: usize| {
+                let hinge = self.arm.hinges.iter().find(|hinge| hinge.coordinate == index);
+                hinge.and_then(|hinge| hinge.held_rad).unwrap_or_default()
+            };
             joint.others.iter().map(|(other, sense)| sense * angle(*other)).sum()
         };
         let angle = |joint: &FlownJoint, row: &[f64]| joint.motion(row) - held(joint);

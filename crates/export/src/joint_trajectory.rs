@@ -7,7 +7,7 @@ use righting_scenario::SystemDescription;
 use serde::Serialize;
 
 use crate::ExportError;
-use crate::arm::Arm;
+use crate::arm::joint_name;
 
 const NANOSECONDS: f64 = 1e9;
 
@@ -53,9 +53,9 @@ impl JointTrajectory {
     /// # Errors
     /// [`ExportError::Steps`] where nodes are less than a nanosecond apart.
     pub fn new(system: &SystemDescription, trajectory: &Trajectory) -> Result<Self, ExportError> {
-        let arm = Arm::new(system);
-        let is_turning = |index: &usize| arm.hinges[*index].held_rad.is_none();
-        let turning: Vec<usize> = (0..arm.hinges.len()).filter(is_turning).collect();
+        let limits = &system.joint_limits;
+        let turning: Vec<usize> =
+            (0..limits.len()).filter(|&joint| !limits[joint].is_locked()).collect();
         let pick = |values: &[f64]| turning.iter().map(|index| values[*index]).collect();
         let point = |(k, node): (usize, &Node)| {
             let accelerations = trajectory.joint_accelerations_at(k);
@@ -82,7 +82,7 @@ impl JointTrajectory {
             let steps_s = times.map(|pair| pair[1].time_s - pair[0].time_s);
             return Err(ExportError::Steps { step_s: steps_s.fold(f64::INFINITY, f64::min) });
         }
-        let joint_names = turning.iter().map(|index| arm.hinges[*index].joint.clone()).collect();
+        let joint_names = turning.iter().map(|&joint| joint_name(system, joint)).collect();
         Ok(Self { header: Header::default(), joint_names, points })
     }
 

@@ -18,13 +18,15 @@ const LEAST: f64 = 1e-14;
 /// `end`.
 ///
 /// The body `base` is on a free joint; no gravity, armature, damping or friction. Body `link_i` is
-/// what `joint_i` turns, in the frame whose z axis is the joint's axis where all angles are zero. A
-/// payload is part of the last body. Joint angles are the plan's. Every joint has a motor of the same
+/// what `joint_i` turns, in the frame whose z axis is the joint's axis where all angles are zero; bodies
+/// and joints with names of their own keep them. Joints stand depth first. A payload is part of the last
+/// body. Joint angles are the plan's. Every joint has a motor of the same
 /// name, whose control is its torque, within the joint's limit; locked joints are none, their bodies
-/// are fixed. A joint's rate and acceleration limits stand in `custom`, since MJCF has none. The site `tip` is the last frame.
+/// are fixed. A joint's rate and acceleration limits stand in `custom`, since MJCF has none. The site `tip` is the last
+/// frame of an arm in rows.
 ///
 /// MuJoCo refuses bodies without mass on a joint. A massless link is therefore no body: its joint
-/// turns the next body with mass, which is the same motion. Where none follows, and for principal
+/// turns the next body with mass, which is the same motion. Where none or several follow, and for principal
 /// moments of zero such as a rod's about itself, 1e-14 kg and kg m² stand for zero.
 pub fn mjcf(system: &SystemDescription, trajectory: &Trajectory) -> String {
     model(system, &Arm::new(system), trajectory).to_string()
@@ -82,12 +84,11 @@ fn motor(hinge: &Hinge) -> Element {
     }
 }
 
-/// A body with its joints, in the frame of the body before that is in the model.
-struct Body<'a> {
-    name: &'a str,
+/// What lies between a body of the model and the next one farther out that is in the model.
+#[derive(Clone)]
+struct Between<'a> {
     placement: Placement,
     joints: Vec<Joint<'a>>,
-    mass: &'a RigidBody,
 }
 
 /// A joint in the frame of the body that it turns.
@@ -98,39 +99,57 @@ struct Joint<'a> {
     position_m: Vector3<f64>,
 }
 
-impl<'a> Body<'a> {
-    /// All bodies beyond the base that the model has, outward, and the frame of the last hinge in that
-    /// of the last of them.
-    fn of(arm: &'a Arm) -> (Vec<Self>, Placement) {
-        let mut bodies = Vec::new();
-        let mut placement = Placement::identity();
-        let mut joints: Vec<Joint<'a>> = Vec::new();
-        for (index, hinge) in arm.hinges.iter().enumerate() {
-            let step = hinge.placed();
-            placement = placement.then(&step);
-            for joint in &mut joints {
-                *joint = joint.seen_from(&step);
-            }
-            if hinge.held_rad.is_none() {
-                joints.push(Joint { hinge, axis: Vector3::z(), position_m: Vector3::zeros() });
-            }
-            let is_last = index + 1 == arm.hinges.len();
-            if hinge.body.mass_kg > 0.0 || is_last && !joints.is_empty() {
-                let joints = std::mem::take(&mut joints);
-                bodies.push(Self { name: &hinge.link, placement, joints, mass: &hinge.body });
-                placement = Placement::identity();
-            }
-        }
-        (bodies, placement)
+impl<'a> Between<'a> {
+    fn nothing() -> Self {
+        Self { placement: Placement::identity(), joints: Vec::new() }
     }
 
-    fn element(&self) -> Element {
-        let mut body = placed(Element::new("body").with("name", self.name), &self.placement);
+    /// And one hinge more.
+    fn past(mut self, hinge: &'a Hinge) -> Self {
+        let step = hinge.placed();
+        self.placement = self.placement.then(&step);
+        for joint in &mut self.joints {
+            *joint = joint.seen_from(&step);
+        }
+        if hinge.held_rad.is_none() {
+            self.joints.push(Joint { hinge, axis: Vector3::z(), position_m: Vector3::zeros() });
+        }
+        self
+    }
+
+    fn body(&self, hinge: &Hinge) -> Element {
+        let mut body = placed(Element::new("body").with("name", &hinge.link), &self.placement);
         for joint in &self.joints {
             body.push(joint.element());
         }
         let least = if self.joints.is_empty() { 0.0 } else { LEAST };
-        body.holding(inertial(self.mass, least))
+        body.holding(inertial(&hinge.body, least))
+    }
+}
+
+/// Puts a body and all that it carries into the one that carries it.
+fn hang<'a>(arm: &'a Arm, index: usize, between: Between<'a>, carrier: &mut Element) {
+    let hinge = &arm.hinges[index];
+    let between = between.past(hinge);
+    let carried: Vec<usize> = arm.carried_by(Some(index)).collect();
+    let tip = arm.tip.filter(|_| index + 1 == arm.hinges.len());
+    let site = |placement: &Placement| placed(Element::new("site").with("name", TIP), placement);
+    if hinge.body.mass_kg > 0.0 || carried.len() != 1 && !between.joints.is_empty() {
+        let mut body = between.body(hinge);
+        for next in carried {
+            hang(arm, next, Between::nothing(), &mut body);
+        }
+        if let Some(tip) = &tip {
+            body.push(site(tip));
+        }
+        carrier.push(body);
+    } else {
+        for next in carried {
+            hang(arm, next, between.clone(), carrier);
+        }
+        if let Some(tip) = &tip {
+            carrier.push(site(&between.placement.then(tip)));
+        }
     }
 }
 
@@ -165,16 +184,14 @@ impl Joint<'_> {
 }
 
 fn bodies(arm: &Arm) -> Element {
-    let (bodies, end) = Body::of(arm);
-    let mut beyond = placed(Element::new("site").with("name", TIP), &end.then(&arm.tip));
-    for body in bodies.iter().rev() {
-        beyond = body.element().holding(beyond);
-    }
-    Element::new("body")
+    let mut base = Element::new("body")
         .with("name", BASE)
         .holding(Element::new("freejoint").with("name", BASE))
-        .holding(inertial(&arm.base, LEAST))
-        .holding(beyond)
+        .holding(inertial(&arm.base, LEAST));
+    for index in arm.carried_by(None) {
+        hang(arm, index, Between::nothing(), &mut base);
+    }
+    base
 }
 
 fn placed(element: Element, placement: &Placement) -> Element {
@@ -212,8 +229,8 @@ fn physical(moments: Vector3<f64>, least: f64) -> Vector3<f64> {
 
 fn key(name: &str, arm: &Arm, node: &Node) -> Element {
     let turning = |values: &[f64]| -> Vec<f64> {
-        let joints = arm.hinges.iter().zip(values);
-        joints.filter(|(hinge, _)| hinge.held_rad.is_none()).map(|(_, value)| *value).collect()
+        let turning = arm.hinges.iter().filter(|hinge| hinge.held_rad.is_none());
+        turning.map(|hinge| values[hinge.coordinate]).collect()
     };
     let place = node.position_m.into_iter().chain(node.attitude);
     let motion = node.velocity_m_s.into_iter().chain(node.angular_rate_rad_s);

@@ -14,25 +14,26 @@ const UNLIMITED: f64 = 1e9;
 /// The system as a URDF robot.
 ///
 /// The root link `base` is the base; whoever loads the file lets it float (URDF itself has no free
-/// root). Link i is the body that joint i turns, in the frame whose z axis is the axis of joint i;
-/// a payload is part of the last link, and what moves with no joint is part of the base. Joint angles
-/// are the plan's. Locked joints are `fixed`, joints without limits of angle `continuous`. A limit
+/// root). Link i is the body that joint i turns, in the frame whose z axis is the axis of joint i; bodies
+/// and joints with names of their own keep them. A payload is part of the last link, a body on a fixed joint
+/// of the one that carries it, and what moves with no joint of the base. Joint angles are the plan's. Locked joints are `fixed`, joints without limits of angle `continuous`. A limit
 /// that there is not stands as 1e9, that of the effort among them. Links without mass have no
-/// `inertial`. The link `tip` is the last frame.
+/// `inertial`. The link `tip` is the last frame of an arm in rows.
 pub fn urdf(system: &SystemDescription) -> String {
     let arm = Arm::new(system);
     let mut robot = Element::new("robot")
         .with("name", &system.name)
         .noting("SI units and radians. The root link floats freely; there is no gravity.")
         .holding(link(BASE, &arm.base));
-    let mut parent = BASE;
     for hinge in &arm.hinges {
+        let parent = hinge.parent.map_or(BASE, |parent| &arm.hinges[parent].link);
         robot.push(link(&hinge.link, &hinge.body));
         robot.push(joint(hinge, parent));
-        parent = &hinge.link;
     }
-    robot.push(Element::new("link").with("name", TIP));
-    robot.push(connection("tip_joint", "fixed", parent, TIP, &arm.tip));
+    if let (Some(tip), Some(last)) = (&arm.tip, arm.hinges.last()) {
+        robot.push(Element::new("link").with("name", TIP));
+        robot.push(connection("tip_joint", "fixed", &last.link, TIP, tip));
+    }
     robot.to_string()
 }
 

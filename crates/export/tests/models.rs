@@ -11,6 +11,8 @@ use righting_multibody::{Quaternion, State};
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
 use righting_scenario::file::{Duration, Payload, SystemReference};
+use righting_test_support::arms::arm;
+use righting_test_support::trees;
 use righting_test_support::{motion, shipped, varied};
 use tree::Tree;
 
@@ -88,7 +90,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
     fn any_arm_is_what_its_model_says(
-        scenario in righting_test_support::arms::arm(1..=8),
+        scenario in prop_oneof![arm(1..=8).boxed(), trees::tree(1..=8).boxed()],
         seed in -3.0..3.0,
     ) {
         check(&scenario, seed);
@@ -101,7 +103,7 @@ fn a_payload_a_turned_mount_and_a_locked_joint_are_in_the_models() {
         let SystemReference::Inline(system) = &mut file.system else {
             panic!("a resolved scenario")
         };
-        system.mount.rotation = Some([0.6, 0.0, 0.0, 0.8]);
+        system.mount.as_mut().unwrap().rotation = Some([0.6, 0.0, 0.0, 0.8]);
         system.links[2].angle_min_deg = Some(25.0);
         system.links[2].angle_max_deg = Some(25.0);
         system.payload = Some(Payload {

@@ -13,7 +13,7 @@ pub struct Spreads {
     pub inertias: f64,
     /// Of every center of mass that is given, along each axis, m.
     pub centers_m: f64,
-    /// Of the place of the mount, along each axis, m.
+    /// Of the place of the mount, or of every joint on the base, along each axis, m.
     pub mount_m: f64,
 }
 
@@ -37,6 +37,9 @@ impl Spreads {
         for link in &mut plant.links {
             scaled(&mut link.mass_kg, &mut link.inertia_kg_m2);
         }
+        for body in plant.bodies.iter_mut().flatten() {
+            scaled(&mut body.mass_kg, &mut body.inertia_kg_m2);
+        }
         if let Some(payload) = &mut plant.payload {
             scaled(&mut payload.mass_kg, &mut payload.inertia_kg_m2);
         }
@@ -48,7 +51,19 @@ impl Spreads {
                 moved(center, self.centers_m);
             }
         }
-        moved(&mut plant.mount.position_m, self.mount_m);
+        for body in plant.bodies.iter_mut().flatten() {
+            if let Some(center) = &mut body.center_of_mass_m {
+                moved(center, self.centers_m);
+            }
+        }
+        if let Some(mount) = &mut plant.mount {
+            moved(&mut mount.position_m, self.mount_m);
+        }
+        let base = plant.base.name.as_deref().unwrap_or("base");
+        let on_base = plant.bodies.iter_mut().flatten().filter(|body| body.parent == base);
+        for body in on_base {
+            moved(body.joint.position_m.get_or_insert_default(), self.mount_m);
+        }
         plant
     }
 }

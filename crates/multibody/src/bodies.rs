@@ -1,13 +1,13 @@
 //! The system as rigid bodies on hinges, the form in which files of other programs describe one.
 //!
-//! Body k is everything that joint k turns and joint k+1 does not; its frame's z axis is the axis of
+//! Body k is everything that joint k turns and no joint beyond it does; its frame's z axis is the axis of
 //! joint k. Where a row of parameters has its mass elsewhere (modified rows have it in the frame
 //! before), it belongs to the body that it moves with; a payload belongs to the last body, and what
 //! moves with no joint to the base.
 
-use crate::chain::{Chain, Joint};
 use crate::inertia::{MassMoments, inertia};
 use crate::system::System;
+use crate::tree::{Carried, Tree, snapped};
 use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 
@@ -34,8 +34,10 @@ pub struct Placement {
 /// A body on a hinge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HingedBody {
-    /// Its frame at joint angle zero, in the frame of the body before; of the first in the body frame
-    /// of the base. The hinge turns it about its z axis.
+    /// The body that carries it, by its joint; none for the base.
+    pub parent: Option<usize>,
+    /// Its frame at joint angle zero, in the frame of the body that carries it, the body frame for the base.
+    /// The hinge turns it about its z axis.
     pub placement: Placement,
     /// Its mass.
     pub body: RigidBody,
@@ -47,62 +49,58 @@ pub struct HingedBody {
 impl System {
     /// The base with all that is fixed to it, in the body frame.
     pub fn base_body(&self) -> RigidBody {
-        RigidBody::of(&self.chain.base)
+        RigidBody::of(&self.tree.base)
     }
 
-    /// The bodies that the joints turn, from the base outward, one a joint.
+    /// The bodies that the joints turn, one a joint, in the order of the joint coordinates.
     pub fn hinged_bodies(&self) -> Vec<HingedBody> {
-        let chain = &self.chain;
-        let placements = (0..chain.joints.len()).map(|k| chain.placement(k));
-        let parts = chain.joints.iter().zip(chain.idle_joints());
-        placements
-            .zip(parts)
-            .map(|(placement, (joint, is_idle))| HingedBody {
-                placement,
-                body: RigidBody::of(&joint.body),
-                is_idle,
+        let tree = &self.tree;
+        let idle = tree.idle_joints();
+        let mut bodies: Vec<(usize, HingedBody)> = tree
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(k, joint)| {
+                let body = HingedBody {
+                    parent: joint.parent.map(|parent| tree.joints[parent].coordinate),
+                    placement: tree.start(k).turned(joint.angle),
+                    body: RigidBody::of(&joint.body),
+                    is_idle: idle[k],
+                };
+                (joint.coordinate, body)
             })
-            .collect()
+            .collect();
+        bodies.sort_by_key(|(coordinate, _)| *coordinate);
+        bodies.into_iter().map(|(_, body)| body).collect()
     }
 
-    /// The last frame, where a payload is held, in the frame of the last body.
-    pub fn last_frame(&self) -> Placement {
-        self.chain.joints.last().map_or(Placement::identity(), Joint::outboard)
+    /// Frames (in the order of [`Kinematics::frames`](crate::Kinematics::frames)) as they are fixed to the
+    /// hinged bodies: the joint, none for the base, and the place in the frame of its body.
+    pub fn carried_frames(&self) -> Vec<(Option<usize>, Placement)> {
+        let joint =
+            |carried: &Carried| carried.joint.map(|joint| self.tree.joints[joint].coordinate);
+        self.tree.frames.iter().map(|carried| (joint(carried), carried.placement)).collect()
     }
 }
 
-impl Chain {
-    /// K(k) at joint angle zero in K(k−1), or in the body frame.
-    fn placement(&self, k: usize) -> Placement {
-        let before = match k.checked_sub(1) {
-            Some(before) => self.joints[before].outboard(),
-            None => Placement { position_m: self.root_position, rotation: self.root_rotation },
-        };
-        before.turned(self.joints[k].angle)
-    }
-
+impl Tree {
     fn idle_joints(&self) -> Vec<bool> {
         /// Rounding of a mass that lies on an axis, relative to its second moment along it.
         const ROUNDING: f64 = 1e-14;
-        let mut beyond = MassMoments::zero();
-        let mut is_idle = true;
-        let mut idle = vec![false; self.joints.len()];
+        let mut beyond: Vec<MassMoments> =
+            self.joints.iter().map(|joint| joint.body.clone()).collect();
+        let mut idle = vec![true; self.joints.len()];
         for (k, joint) in self.joints.iter().enumerate().rev() {
-            // What lies on the next joint's axis lies there at any angle of that joint.
-            let Placement { position_m, rotation } = joint.outboard();
-            beyond = joint.body.joined(&beyond.placed(&rotation, &position_m));
-            let across = beyond.second[(0, 0)] + beyond.second[(1, 1)];
-            is_idle = is_idle && across <= ROUNDING * beyond.second.trace();
-            idle[k] = is_idle;
+            let across = beyond[k].second[(0, 0)] + beyond[k].second[(1, 1)];
+            idle[k] = idle[k] && across <= ROUNDING * beyond[k].second.trace();
+            if let Some(parent) = joint.parent {
+                // What lies on a joint's axis lies there at any angle of that joint.
+                let Placement { position_m, rotation } = self.start(k).turned(joint.angle);
+                beyond[parent] = beyond[parent].joined(&beyond[k].placed(&rotation, &position_m));
+                idle[parent] = idle[parent] && idle[k];
+            }
         }
         idle
-    }
-}
-
-impl Joint {
-    /// The frame in which the next joint turns, or the last frame, in K.
-    fn outboard(&self) -> Placement {
-        Placement { position_m: self.offset, rotation: self.twist.about_x() }
     }
 }
 
@@ -126,10 +124,25 @@ impl Placement {
     }
 
     fn turned(&self, turn: Turn) -> Self {
-        let (sin, cos) = turn.sin_cos();
-        let about_z = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         // Adding zero takes the sign off negative zeros.
-        Self { rotation: (self.rotation * about_z).map(|entry| entry + 0.0), ..*self }
+        Self { rotation: (self.rotation * turn.about_z()).map(|entry| entry + 0.0), ..*self }
+    }
+
+    /// The rotation Rz(yaw) Ry(pitch) Rx(roll) of three angles about fixed axes, rad; right angles are exact.
+    pub fn rotation_of_rpy(roll_rad: f64, pitch_rad: f64, yaw_rad: f64) -> Matrix3<f64> {
+        let [roll, pitch, yaw] = [roll_rad, pitch_rad, yaw_rad].map(Turn::new);
+        (yaw.about_z() * pitch.about_y() * roll.about_x()).map(snapped)
+    }
+
+    /// Without the rounding of entries that are 0 or, of a rotation, ±1.
+    pub(crate) fn snapped(&self) -> Self {
+        let rounding = 4.0 * f64::EPSILON * self.position_m.amax();
+        Self {
+            position_m: self
+                .position_m
+                .map(|entry| if entry.abs() > rounding { entry } else { 0.0 }),
+            rotation: self.rotation.map(snapped),
+        }
     }
 }
 
@@ -140,7 +153,7 @@ impl RigidBody {
         Self::of(&self.moments().joined(&other.moments().placed(rotation, position_m)))
     }
 
-    fn moments(&self) -> MassMoments {
+    pub(crate) fn moments(&self) -> MassMoments {
         MassMoments::of_body(self.mass_kg, self.center_of_mass_m, &self.inertia_kg_m2)
     }
 

@@ -5,8 +5,9 @@
 //! the distance of two links depends only on the joints between them, and here that shows. In body axes both
 //! depend on every joint inboard, and only the arithmetic finds out that the distance does not.
 
-use crate::algebra::{constant, constant_rotation, offset_by};
-use crate::core::Core;
+use crate::algebra::{PlaneRotation, constant, constant_rotation, offset_by};
+use crate::bodies::Placement;
+use crate::core::{Core, LocalCore};
 use crate::distance::Segment;
 use crate::sweep::joint_rotations;
 use crate::system::System;
@@ -37,7 +38,7 @@ impl System {
             return T::from(core.segment().squared_distance_to_point(&point));
         };
         let point = Carried { point: constant(&point), direction: constant(&Vector3::zeros()) };
-        let point = self.carried(q, point, 0, joint);
+        let point = self.carried(q, point, None, Some(joint));
         core.segment().squared_distance_to_point(&point.point)
     }
 
@@ -60,7 +61,7 @@ impl System {
         };
         let direction = end - start;
         let segment = Carried { point: constant(&start), direction: constant(&direction) };
-        let Carried { point, direction: along } = self.carried(q, segment, 0, joint);
+        let Carried { point, direction: along } = self.carried(q, segment, None, Some(joint));
         let length_squared = T::from(direction.norm_squared());
         Segment { start: point, direction: along, length_squared }
             .squared_distance_to_segment(&core.segment())
@@ -72,24 +73,16 @@ impl System {
     /// # Panics
     /// As [`squared_distance_to_point`](Self::squared_distance_to_point).
     pub fn squared_distance_between<T: Scalar>(&self, q: &[T], a: &Core, b: &Core) -> T {
-        let (inboard, outboard) = match self.joints_moving(a) <= self.joints_moving(b) {
-            true => (self.placed(a).reversed(), self.placed(b)),
-            false => (self.placed(b).reversed(), self.placed(a)),
-        };
-        let first = inboard.joint.map_or(0, |joint| joint + 1);
-        let Some(last) = outboard.joint.filter(|last| *last >= first) else {
+        let (a, b) = (self.placed(a), self.placed(b));
+        let depth = |core: &LocalCore| self.tree.path(core.joint).len();
+        let (inboard, outboard) = if depth(&a) <= depth(&b) { (a, b) } else { (b, a) };
+        let inboard = inboard.reversed();
+        if inboard.joint == outboard.joint {
             return T::from(inboard.segment().squared_distance_to_segment(&outboard.segment()));
-        };
-        let from_next = match inboard.joint {
-            Some(joint) => inboard.start - self.chain.joints[joint].offset,
-            None => inboard.start,
-        };
-        let core = Carried { point: constant(&from_next), direction: constant(&inboard.direction) };
-        let core = match first {
-            0 => core,
-            _ => core.twisted(self, first - 1),
-        };
-        let Carried { point, direction } = self.carried(q, core, first, last);
+        }
+        let core =
+            Carried { point: constant(&inboard.start), direction: constant(&inboard.direction) };
+        let Carried { point, direction } = self.carried(q, core, inboard.joint, outboard.joint);
         let length_squared = T::from(inboard.direction.norm_squared());
         Segment { start: point, direction, length_squared }
             .squared_distance_to_segment(&outboard.segment())
@@ -97,44 +90,72 @@ impl System {
 
     /// A point of the base from the origin of the axes that joint 1 turns in, in those axes.
     fn seen_from_root(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        let to_root = self.chain.root_rotation.transpose();
-        -(to_root * (self.chain.root_position - point))
+        let to_root = self.tree.root_rotation.transpose();
+        -(to_root * (self.tree.root_position - point))
     }
 
-    /// Takes what is given from the origin of K(first), in the axes in which that joint turns, into
-    /// K(last).
+    /// Takes what is given in K of one joint into K of another. The base stands for no joint, with the axes
+    /// that joint 1 turns in and their origin.
     fn carried<T: Scalar>(
         &self,
         q: &[T],
         start: Carried<T>,
-        first: usize,
-        last: usize,
+        from: Option<usize>,
+        to: Option<usize>,
     ) -> Carried<T> {
         self.assert_joint_slice(q);
-        let rotations = joint_rotations(&self.chain, q);
+        let rotations = joint_rotations(&self.tree, q);
+        let (inward, outward) = (self.tree.path(from), self.tree.path(to));
+        let shared = inward.iter().zip(&outward).take_while(|(a, b)| a == b).count();
         let mut carried = start;
-        for (k, rotation) in rotations.iter().enumerate().take(last + 1).skip(first) {
-            carried = Carried {
-                point: rotation.turn_back(&carried.point),
-                direction: rotation.turn_back(&carried.direction),
-            };
-            if k < last {
-                let offset = -self.chain.joints[k].offset;
-                carried.point = offset_by(&carried.point, &offset);
-                carried = carried.twisted(self, k);
-            }
+        for &k in inward[shared..].iter().rev() {
+            carried = carried.turned(&rotations[k]).out_of(&self.start_from_root(k));
+        }
+        for &k in &outward[shared..] {
+            carried = carried.into_frame(&self.start_from_root(k)).turned_back(&rotations[k]);
         }
         carried
+    }
+
+    /// Where the frame that joint k turns in sits in K of its parent, or in the axes that joint 1 turns in.
+    fn start_from_root(&self, k: usize) -> Placement {
+        let joint = &self.tree.joints[k];
+        match joint.parent.is_none() && joint.branch.is_none() {
+            true => Placement::identity(),
+            false => self.tree.start(k),
+        }
     }
 }
 
 impl<T: Scalar> Carried<T> {
-    /// From the axes of K(k) to those in which the next joint turns.
-    fn twisted(self, system: &System, k: usize) -> Self {
-        let back = system.chain.joints[k].twist.about_x().transpose();
+    /// Out of a frame that sits at `placement`.
+    fn out_of(self, placement: &Placement) -> Self {
+        let Placement { position_m, rotation } = placement;
+        let point = constant_rotation(rotation, &self.point);
         Self {
-            point: constant_rotation(&back, &self.point),
+            point: offset_by(&point, position_m),
+            direction: constant_rotation(rotation, &self.direction),
+        }
+    }
+
+    /// Into a frame that sits at `placement`.
+    fn into_frame(self, placement: &Placement) -> Self {
+        let back = placement.rotation.transpose();
+        let point = offset_by(&self.point, &-placement.position_m);
+        Self {
+            point: constant_rotation(&back, &point),
             direction: constant_rotation(&back, &self.direction),
+        }
+    }
+
+    fn turned(self, rotation: &PlaneRotation<T>) -> Self {
+        Self { point: rotation.turn(&self.point), direction: rotation.turn(&self.direction) }
+    }
+
+    fn turned_back(self, rotation: &PlaneRotation<T>) -> Self {
+        Self {
+            point: rotation.turn_back(&self.point),
+            direction: rotation.turn_back(&self.direction),
         }
     }
 }

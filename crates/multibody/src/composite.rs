@@ -1,9 +1,10 @@
 //! Base and arm taken together at one configuration.
 
 use crate::algebra::{PlaneRotation, constant_rotation, offset_by};
-use crate::chain::Chain;
+use crate::branches::{Beyond, Branches};
 use crate::sweep::{Moments, Pair, SweepRotations, TurnedCoupling};
 use crate::symmetric::Symmetric;
+use crate::tree::Tree;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
@@ -25,8 +26,8 @@ pub(crate) struct SweepAxes<T> {
 }
 
 impl<T: Scalar> SweepAxes<T> {
-    pub fn new(chain: &Chain, last: PlaneRotation<T>) -> Self {
-        Self { last, root: chain.root_rotation }
+    pub fn new(tree: &Tree, last: PlaneRotation<T>) -> Self {
+        Self { last, root: tree.root_rotation }
     }
 
     pub fn to_body(&self, v: &Vector3<T>) -> Vector3<T> {
@@ -43,36 +44,46 @@ impl<T: Scalar> SweepAxes<T> {
 }
 
 impl<T: Scalar> Composite<T> {
-    pub fn new(chain: &Chain, q: &[T], qdot: &[T]) -> Self {
-        let rotations = SweepRotations::new(chain, q);
-        let mut moments = Moments::zero();
-        let mut relative = Pair::zero();
-        for (k, joint) in chain.joints.iter().enumerate().rev() {
+    pub fn new(tree: &Tree, q: &[T], qdot: &[T]) -> Self {
+        let rotations = SweepRotations::new(tree, q);
+        let mut branches = Branches::of(tree);
+        let mut beyond = Beyond::nothing();
+        for (k, joint) in tree.joints.iter().enumerate().rev() {
             let (coupling, rotation) = (&joint.coupling, &rotations.joints[k]);
-            if chain.continues_group(k + 1) {
+            let Beyond { moments, pair } = beyond;
+            beyond = if tree.continues_group(k + 1) {
                 let turned = TurnedCoupling::new(coupling, rotation);
-                moments = moments.coupled_turned(coupling, &turned, rotation);
-                relative = relative.shifted_turned(&turned);
+                let moments = moments.coupled_turned(coupling, &turned, rotation);
+                Beyond { moments, pair: pair.shifted_turned(&turned) }
             } else {
-                moments = moments.twisted(joint.twist).coupled(coupling).turned(rotation);
-                relative = relative.twisted(joint.twist).shifted(&coupling.arm).turned(rotation);
+                let moments = moments.twisted(joint.twist).coupled(coupling);
+                let pair = pair.twisted(joint.twist).shifted(&coupling.arm);
+                branches.join(Some(k), Beyond { moments, pair }).turned(rotation)
+            };
+            beyond.pair = beyond.pair.plus_turning(&beyond.moments, qdot[joint.coordinate]);
+            if let Some(branch) = &joint.branch {
+                let Beyond { moments, pair } = beyond.rotated(&branch.rotation);
+                let moments = moments.coupled(&branch.coupling);
+                let pair = pair.shifted(&branch.coupling.arm);
+                branches.hand_over(joint.parent, Beyond { moments, pair });
+                beyond = Beyond::nothing();
             }
-            relative = relative.plus_turning(&moments, qdot[k]);
         }
-        let root = &chain.root;
+        let Beyond { moments, pair: relative } = branches.join(None, beyond);
+        let root = &tree.root;
         Self {
-            inertia: moments.with_base(chain).inertia(),
+            inertia: moments.with_base(tree).inertia(),
             first: offset_by(&moments.first, &root.first),
             relative: relative.shifted(&root.across),
-            axes: SweepAxes::new(chain, rotations.last),
+            axes: SweepAxes::new(tree, rotations.last),
         }
     }
 }
 
 impl<T: Scalar> Moments<T> {
     /// Second moment of the whole system about its centre of mass.
-    pub fn with_base(&self, chain: &Chain) -> Symmetric<T> {
-        let root = &chain.root;
+    pub fn with_base(&self, tree: &Tree) -> Symmetric<T> {
+        let root = &tree.root;
         self.second.plus_product_constant(&self.first, &root.across).plus_constant(&root.second)
     }
 }

@@ -5,6 +5,7 @@ use crate::distance::Segment;
 use crate::kinematics::{Frame, Kinematics};
 use crate::parts::DhConvention;
 use crate::system::System;
+use crate::tree::Carried;
 use nalgebra::Vector3;
 use righting_scalar::Scalar;
 
@@ -12,11 +13,11 @@ use righting_scalar::Scalar;
 /// length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Core {
-    /// From a link's inboard origin to its outboard one; links counted from zero.
+    /// From the inboard origin to the outboard one of a link that a row describes; links counted from zero.
     Link(usize),
-    /// Between two points that move with a Denavit-Hartenberg frame.
+    /// Between two points that move with a frame.
     InFrame {
-        /// The frame, 0 (the mount) to j.
+        /// The frame, in the order of [`Kinematics::frames`].
         frame: usize,
         /// One end in the frame's axes, m.
         from_m: Vector3<f64>,
@@ -61,69 +62,61 @@ impl LocalCore {
 }
 
 impl System {
-    /// The joints that move a core: so many, from the first.
-    pub fn joints_moving(&self, core: &Core) -> usize {
-        match (*core, self.convention()) {
-            (Core::Link(link), DhConvention::Standard) => link + 1,
-            (Core::Link(link), DhConvention::Modified) => link,
-            (Core::InFrame { frame, .. }, _) => frame,
-        }
+    /// The joints that move a core, from the base outward.
+    pub fn joints_moving(&self, core: &Core) -> Vec<usize> {
+        let path = self.tree.path(self.placed(core).joint);
+        path.into_iter().map(|joint| self.tree.joints[joint].coordinate).collect()
     }
 
-    /// Of each joint that moves a core, in order: how far from a point on the joint's axis a point of the
-    /// core can be at most, whatever the posture, m.
-    pub fn reach_m(&self, core: &Core) -> Vec<f64> {
-        let first_moved = match self.convention() {
-            DhConvention::Standard => 0,
-            DhConvention::Modified => 1,
-        };
-        let (last, beyond_m) = match *core {
-            Core::Link(link) => (link + 1, 0.0),
-            Core::InFrame { frame, from_m, to_m } => (frame, from_m.norm().max(to_m.norm())),
-        };
-        let lengths = |joint: usize| -> f64 {
-            let links = self.links().get(joint + first_moved..last).unwrap_or_default();
-            links.iter().map(|link| link.length_m()).sum()
-        };
-        (0..self.joints_moving(core)).map(|joint| lengths(joint) + beyond_m).collect()
+    /// Each joint that moves a core, from the base outward, and how far from a point on its axis a point of
+    /// the core can be at most, whatever the posture, m.
+    pub fn reach_m(&self, core: &Core) -> Vec<(usize, f64)> {
+        let core = self.placed(core);
+        let mut beyond_m = core.start.norm().max((core.start + core.direction).norm());
+        let mut reach = Vec::new();
+        for joint in self.tree.path(core.joint).into_iter().rev() {
+            reach.push((self.tree.joints[joint].coordinate, beyond_m));
+            beyond_m += self.tree.start(joint).position_m.norm();
+        }
+        reach.reverse();
+        reach
     }
 
     pub(crate) fn placed(&self, core: &Core) -> LocalCore {
-        let chain = &self.chain;
-        let to_root = chain.root_rotation.transpose();
+        let tree = &self.tree;
+        let to_root = tree.root_rotation.transpose();
         match *core {
-            Core::Link(link) => {
-                let joint = self.joints_moving(core).checked_sub(1);
-                match joint {
-                    Some(joint) => LocalCore {
-                        joint: Some(joint),
-                        start: Vector3::zeros(),
-                        direction: chain.joints[joint].offset,
-                    },
-                    None => {
-                        debug_assert_eq!(link, 0, "only Craig's link 1 is fixed to the base");
-                        let direction = to_root * (chain.root_position - self.mount().position_m);
-                        LocalCore { joint: None, start: -direction, direction }
-                    }
+            Core::Link(link) => match self.joint_under(link) {
+                Some(joint) => LocalCore {
+                    joint: Some(joint),
+                    start: Vector3::zeros(),
+                    direction: tree.joints[joint].offset,
+                },
+                None => {
+                    let direction = to_root * (tree.root_position - tree.mount_position);
+                    LocalCore { joint: None, start: -direction, direction }
                 }
-            }
+            },
             Core::InFrame { frame, from_m, to_m } => {
-                let joint = frame.checked_sub(1);
-                let placed = |point: &Vector3<f64>| match (joint, self.convention()) {
-                    (Some(joint), DhConvention::Standard) => {
-                        let joint = &chain.joints[joint];
-                        joint.offset + joint.twist.about_x() * point
-                    }
-                    (Some(_), DhConvention::Modified) => *point,
-                    (None, _) => {
-                        let mount = self.mount();
-                        let from_body = mount.position_m + mount.rotation * point;
-                        to_root * (from_body - chain.root_position)
+                let Carried { joint, placement } = &tree.frames[frame];
+                let placed = |point: &Vector3<f64>| {
+                    let placed = placement.position_m + placement.rotation * point;
+                    match joint {
+                        Some(_) => placed,
+                        None => to_root * (placed - tree.root_position),
                     }
                 };
                 let (start, end) = (placed(&from_m), placed(&to_m));
-                LocalCore { joint, start, direction: end - start }
+                LocalCore { joint: *joint, start, direction: end - start }
             }
+        }
+    }
+
+    /// The joint that the segment of a row moves with.
+    fn joint_under(&self, link: usize) -> Option<usize> {
+        match self.rows().map(|rows| rows.convention) {
+            Some(DhConvention::Modified) => link.checked_sub(1),
+            Some(DhConvention::Standard) | None => Some(link),
         }
     }
 }

@@ -35,6 +35,11 @@ pub(crate) struct Coupling {
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Coupling {
+    /// Of nothing.
+    pub fn none() -> Self {
+        Self::new(Barycentric::new(&MassMoments::zero(), &Vector3::zeros(), 0.0, 1.0))
+    }
+
     pub fn new(Barycentric { first, arm, second }: Barycentric) -> Self {
         let arm_squared = arm.norm_squared();
         let over_arm = |x: f64| if arm_squared > 0.0 { x / arm_squared } else { 0.0 };
@@ -123,6 +128,12 @@ impl RootCoupling {
         let on_axis = across.amax() == 0.0 && first.x == 0.0 && first.y == 0.0;
         let root = Self { first, second, across, symmetric: diagonal && round && on_axis };
         (root, Vector3::new(0.0, 0.0, arm.z))
+    }
+
+    /// With all of b: where more than one branch comes together at joint 1 or at the base.
+    pub fn whole(base: &Barycentric, root_rotation: &Matrix3<f64>) -> Self {
+        let (root, along) = Self::new(base, root_rotation);
+        Self { across: root.across + along, symmetric: false, ..root }
     }
 }
 

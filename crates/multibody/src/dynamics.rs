@@ -19,12 +19,13 @@ use crate::algebra::{
     PlaneRotation, combination, constant_matrix_product, constant_rotation, cross, offset_by,
     plus_multiple, sum, zero,
 };
-use crate::chain::Chain;
+use crate::branches::{Beyond, Branches};
 use crate::composite::SweepAxes;
 use crate::coupling::Coupling;
 use crate::inertia::inertia;
-use crate::sweep::{Moments, Pair, SweepRotations, TurnedCoupling};
+use crate::sweep::{SweepRotations, TurnedCoupling};
 use crate::system::System;
+use crate::tree::Tree;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
@@ -101,16 +102,10 @@ impl<T: Scalar> Spin<T> {
     }
 }
 
-/// The state of the inward sweep.
-#[derive(Clone, Copy)]
-struct Beyond<T> {
-    moments: Moments<T>,
-    /// f and N.
-    load: Pair<T>,
-}
-
+/// The pair is f and N.
 impl<T: Scalar> Beyond<T> {
-    /// Takes in the body of the last joint of a group, in the axes of K.
+    /// Takes in a coupling that moves with the frame in whose axes all is: the body of the last joint of a
+    /// group, in the axes of K.
     fn coupled(self, coupling: &Coupling, spin: &Spin<T>) -> Self {
         let arm = spin.acceleration_of(&coupling.arm);
         let first = match coupling.first_over_arm {
@@ -118,13 +113,13 @@ impl<T: Scalar> Beyond<T> {
             None => spin.acceleration_of(&coupling.first),
         };
         let doubled = coupling.half * 2.0;
-        let mut load = self.load.shifted(&coupling.arm);
+        let mut load = self.pair.shifted(&coupling.arm);
         load.angular = sum(&load.angular, &cross(&offset_by(&self.moments.first, &doubled), &arm));
         if let Some(rest) = &coupling.rest {
             load.angular = sum(&load.angular, &spin.moment_of(&inertia(rest)));
         }
         load.linear = sum(&load.linear, &first);
-        Self { moments: self.moments.coupled(coupling), load }
+        Self { moments: self.moments.coupled(coupling), pair: load }
     }
 
     /// The same for another joint of the group, in the axes in which the group turns.
@@ -141,14 +136,14 @@ impl<T: Scalar> Beyond<T> {
             None => spin.acceleration_of_turned(&turned.first, coupling.first.z),
         };
         let doubled = rotation.turn_constant(&(coupling.half * 2.0));
-        let mut load = self.load.shifted_turned(&turned);
+        let mut load = self.pair.shifted_turned(&turned);
         load.angular = sum(&load.angular, &cross(&sum(&self.moments.first, &doubled), &arm));
         if let Some(rest) = &coupling.rest {
             let own = spin.turned_back(rotation).moment_of(&inertia(rest));
             load.angular = sum(&load.angular, &rotation.turn(&own));
         }
         load.linear = sum(&load.linear, &first);
-        Self { moments: self.moments.coupled_turned(coupling, &turned, rotation), load }
+        Self { moments: self.moments.coupled_turned(coupling, &turned, rotation), pair: load }
     }
 }
 
@@ -160,26 +155,30 @@ struct Spins<T> {
 }
 
 fn outward<T: Scalar>(
-    chain: &Chain,
+    tree: &Tree,
     rotations: &[PlaneRotation<T>],
     omega: &Vector3<T>,
     qdot: &[T],
     qddot: &[T],
 ) -> Vec<Spins<T>> {
-    let mut group = Spin { rate: *omega, acceleration: zero() };
+    let body = Spin { rate: *omega, acceleration: zero() };
+    let mut group = body;
     let (mut rate, mut acceleration) = (T::from(0.0), T::from(0.0));
-    let mut spins = Vec::with_capacity(chain.joints.len());
-    for (k, joint) in chain.joints.iter().enumerate() {
-        if chain.continues_group(k) {
-            rate += qdot[k];
-            acceleration += qddot[k];
+    let mut spins: Vec<Spins<T>> = Vec::with_capacity(tree.joints.len());
+    for (k, joint) in tree.joints.iter().enumerate() {
+        if let Some(branch) = &joint.branch {
+            group = joint_spin(&spins, joint.parent).unwrap_or(body).rotated_back(&branch.rotation);
+        }
+        if tree.continues_group(k) {
+            rate += qdot[joint.coordinate];
+            acceleration += qddot[joint.coordinate];
         } else {
-            rate = qdot[k];
-            acceleration = qddot[k];
+            rate = qdot[joint.coordinate];
+            acceleration = qddot[joint.coordinate];
         }
         let in_group = group.plus_turning(rate, acceleration);
         let mut in_joint = None;
-        if !chain.continues_group(k + 1) {
+        if !tree.continues_group(k + 1) {
             let spin = in_group.turned_back(&rotations[k]);
             group = spin.rotated_back(&joint.twist.about_x());
             in_joint = Some(spin);
@@ -187,6 +186,11 @@ fn outward<T: Scalar>(
         spins.push(Spins { in_group, in_joint });
     }
     spins
+}
+
+/// The spin of K of a joint at which a branch begins; none for the base.
+fn joint_spin<T: Scalar>(spins: &[Spins<T>], joint: Option<usize>) -> Option<Spin<T>> {
+    joint.and_then(|joint| spins[joint].in_joint)
 }
 
 impl System {
@@ -205,30 +209,33 @@ impl System {
         self.assert_joint_slice(q);
         self.assert_joint_slice(qdot);
         self.assert_joint_slice(qddot);
-        let chain = &self.chain;
-        let SweepRotations { joints: rotations, last } = SweepRotations::new(chain, q);
-        let axes = SweepAxes::new(chain, last);
+        let tree = &self.tree;
+        let SweepRotations { joints: rotations, last } = SweepRotations::new(tree, q);
+        let axes = SweepAxes::new(tree, last);
         let omega = axes.to_sweep(omega);
-        let spins = outward(chain, &rotations, &omega, qdot, qddot);
-        let mut beyond = Beyond { moments: Moments::zero(), load: Pair::zero() };
-        for (k, joint) in chain.joints.iter().enumerate().rev() {
+        let spins = outward(tree, &rotations, &omega, qdot, qddot);
+        let steady = Spin { rate: omega, acceleration: zero() };
+        let mut branches = Branches::of(tree);
+        let mut beyond = Beyond::nothing();
+        for (k, joint) in tree.joints.iter().enumerate().rev() {
             let (coupling, rotation) = (&joint.coupling, &rotations[k]);
             beyond = match &spins[k].in_joint {
                 None => beyond.coupled_turned(coupling, &spins[k].in_group, rotation),
                 Some(spin) => {
-                    let Beyond { moments, load } = Beyond {
-                        moments: beyond.moments.twisted(joint.twist),
-                        load: beyond.load.twisted(joint.twist),
-                    }
-                    .coupled(coupling, spin);
-                    Beyond { moments: moments.turned(rotation), load: load.turned(rotation) }
+                    let onward = beyond.twisted(joint.twist).coupled(coupling, spin);
+                    branches.join(Some(k), onward).turned(rotation)
                 }
             };
+            if let Some(branch) = &joint.branch {
+                let spin = joint_spin(&spins, joint.parent).unwrap_or(steady);
+                let branching = beyond.rotated(&branch.rotation).coupled(&branch.coupling, &spin);
+                branches.hand_over(joint.parent, branching);
+                beyond = Beyond::nothing();
+            }
         }
 
-        let Beyond { moments, load } = beyond;
-        let root = &chain.root;
-        let steady = Spin { rate: omega, acceleration: zero() };
+        let Beyond { moments, pair: load } = branches.join(None, beyond);
+        let root = &tree.root;
         let mut load = load.shifted(&root.across);
         if root.across.amax() > 0.0 {
             let swing = steady.acceleration_of(&root.across);
@@ -236,7 +243,7 @@ impl System {
         }
         let own = cross(&omega, &constant_matrix_product(&inertia(&root.second), &omega));
         let moment = sum(&load.angular, &own);
-        let angular = moments.with_base(chain).inertia().solve(&moment.map(|entry| -entry));
+        let angular = moments.with_base(tree).inertia().solve(&moment.map(|entry| -entry));
 
         let first = offset_by(&moments.first, &root.first);
         let steady_force = sum(&load.linear, &steady.acceleration_of(&root.first));

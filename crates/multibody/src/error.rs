@@ -11,6 +11,8 @@ pub enum Part {
     Mount,
     /// A link, counted from zero at the base.
     Link(usize),
+    /// A body of a list, counted from zero.
+    Body(usize),
     /// The payload at the last origin.
     Payload,
 }
@@ -21,6 +23,7 @@ impl fmt::Display for Part {
             Part::Base => write!(f, "base"),
             Part::Mount => write!(f, "mount"),
             Part::Link(index) => write!(f, "link {}", index + 1),
+            Part::Body(index) => write!(f, "body {}", index + 1),
             Part::Payload => write!(f, "payload"),
         }
     }
@@ -29,8 +32,8 @@ impl fmt::Display for Part {
 /// A model that no rigid-body system can have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// The arm has no links.
-    #[error("links: found none, expected at least one")]
+    /// The arm has no joint that moves.
+    #[error("joints: found none, expected at least one")]
     EmptyChain,
     /// A number of the model is NaN or infinite.
     #[error("{part}: {quantity}: found {value}, expected a finite number")]
@@ -135,9 +138,23 @@ pub enum ModelError {
         /// The principal moments, smallest first.
         moments_kg_m2: [f64; 3],
     },
-    /// The mount's matrix is not a rotation.
-    #[error("mount: the rotation matrix is off an orthonormal right-handed one by {deviation}")]
+    /// A body that is carried by itself, over others or not, or by one that there is not.
+    #[error("{part}: parent: found no way to the base, expected a body that leads there")]
+    NoWayToBase {
+        /// Whose parent.
+        part: Part,
+    },
+    /// A joint's axis without a direction.
+    #[error("{part}: joint.axis: found a length of 0, expected a direction")]
+    NoAxis {
+        /// Whose joint.
+        part: Part,
+    },
+    /// A matrix that is not a rotation.
+    #[error("{part}: the rotation matrix is off an orthonormal right-handed one by {deviation}")]
     NotARotation {
+        /// Whose orientation.
+        part: Part,
         /// Largest entry of `RᵀR − 1`, or 2 for a reflection.
         deviation: f64,
     },

@@ -1,12 +1,13 @@
 //! Joint torques and kinetic energy, by Newton's and Euler's equations link by link.
 //!
 //! Nothing is shared with the barycentric recursions of the momenta and of the forward dynamics
-//! but the chain's constants: each is a check of the other.
+//! but the tree's constants: each is a check of the other.
 
 use crate::algebra::{
     PlaneRotation, constant, constant_cross, constant_matrix_product, constant_rotation, cross,
     dot, sum, zero,
 };
+use crate::bodies::Placement;
 use crate::dynamics::{BaseAcceleration, Spin};
 use crate::inertia::{MassMoments, inertia};
 use crate::state::State;
@@ -30,11 +31,12 @@ pub struct InverseDynamics<T> {
 }
 
 /// What the base does to all that lies beyond the mount, body axes; the arm does the opposite to the base.
+/// A system of bodies has no mount: there it is to all bodies of the list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MountLoad<T> {
     /// Force, N.
     pub force: Vector3<T>,
-    /// Moment about the mount, N m.
+    /// Moment about the mount, or about the body-frame origin where there is none, N m.
     pub moment: Vector3<T>,
 }
 
@@ -98,41 +100,45 @@ impl System {
         self.assert_joint_slice(q);
         self.assert_joint_slice(qdot);
         self.assert_joint_slice(qddot);
-        let chain = &self.chain;
+        let tree = &self.tree;
         let body =
             Motion { spin: Spin { rate: *omega, acceleration: base.angular }, origin: base.linear };
-        let rotations = joint_rotations(chain, q);
-        let mut motion = Motion {
-            origin: sum(&body.origin, &body.spin.acceleration_of(&chain.root_position)),
-            ..body
-        }
-        .rotated_back(&chain.root_rotation);
+        let rotations = joint_rotations(tree, q);
+        let mut motions: Vec<Motion<T>> = Vec::with_capacity(q.len());
         let mut loads = Vec::with_capacity(q.len());
-        for (k, joint) in chain.joints.iter().enumerate() {
-            motion = motion.turned(&rotations[k], qdot[k], qddot[k]);
+        for (k, joint) in tree.joints.iter().enumerate() {
+            let Placement { position_m, rotation } = tree.start(k);
+            let parent = joint.parent.map_or(body, |parent| motions[parent]);
+            let next = sum(&parent.origin, &parent.spin.acceleration_of(&position_m));
+            let before = Motion { origin: next, ..parent }.rotated_back(&rotation);
+            let at = joint.coordinate;
+            let motion = before.turned(&rotations[k], qdot[at], qddot[at]);
             loads.push(motion.load_of(&joint.body));
-            let next = sum(&motion.origin, &motion.spin.acceleration_of(&joint.offset));
-            motion = Motion { origin: next, ..motion }.rotated_back(&joint.twist.about_x());
+            motions.push(motion);
         }
 
         let mut joint_torques = vec![T::from(0.0); q.len()];
-        let mut beyond = Pair::zero();
-        for (k, joint) in chain.joints.iter().enumerate().rev() {
-            let carried = beyond.twisted(joint.twist).shifted(&joint.offset);
-            let load = carried.plus(&loads[k]);
-            joint_torques[k] = load.angular.z;
-            beyond = load.turned(&rotations[k]);
+        let mut beyond: Option<Pair<T>> = None;
+        for (k, joint) in tree.joints.iter().enumerate().rev() {
+            let load = &loads[k];
+            joint_torques[joint.coordinate] = load.angular.z;
+            let Placement { position_m, rotation } = tree.start(k);
+            let carried = load.turned(&rotations[k]).rotated(&rotation);
+            let about_parent = carried.shifted(&position_m);
+            match joint.parent {
+                Some(parent) => loads[parent] = about_parent.plus(&loads[parent]),
+                None => {
+                    let about_mount = carried.shifted(&(position_m - tree.mount_position));
+                    let others = beyond.take();
+                    beyond = Some(others.map_or(about_mount, |others| others.plus(&about_mount)));
+                }
+            }
         }
-        let rotation = &chain.root_rotation;
-        let carried = Pair {
-            linear: constant_rotation(rotation, &beyond.linear),
-            angular: constant_rotation(rotation, &beyond.angular),
-        };
-        let about_base = carried.shifted(&chain.root_position);
-        let total = about_base.plus(&body.load_of(&chain.base));
-        let mut mount = carried.shifted(&(chain.root_position - self.mount().position_m));
-        if chain.foot.mass > 0.0 {
-            let foot = body.load_of(&chain.foot).shifted(&-self.mount().position_m);
+        let mut mount = beyond.unwrap_or_else(Pair::zero);
+        let about_base = mount.shifted(&tree.mount_position);
+        let total = about_base.plus(&body.load_of(&tree.base));
+        if tree.foot.mass > 0.0 {
+            let foot = body.load_of(&tree.foot).shifted(&-tree.mount_position);
             mount = mount.plus(&foot);
         }
         InverseDynamics {
@@ -163,24 +169,26 @@ impl System {
     pub fn kinetic_energy<T: Scalar>(&self, state: &State<T>) -> T {
         self.assert_joint_slice(&state.joint_angles);
         self.assert_joint_slice(&state.joint_rates);
-        let chain = &self.chain;
+        let tree = &self.tree;
         let still = T::from(0.0);
         let body = Motion {
             spin: Spin { rate: state.angular_rate, acceleration: zero() },
             origin: state.attitude.to_body(&state.velocity),
         };
-        let rotations = joint_rotations(chain, &state.joint_angles);
+        let rotations = joint_rotations(tree, &state.joint_angles);
         let swing = |motion: &Motion<T>, position: &Vector3<f64>| {
             sum(&motion.origin, &cross(&motion.spin.rate, &constant(position)))
         };
-        let mut energy = body.energy_of(&chain.base);
-        let mut motion = Motion { origin: swing(&body, &chain.root_position), ..body }
-            .rotated_back(&chain.root_rotation);
-        for (k, joint) in chain.joints.iter().enumerate() {
-            motion = motion.turned(&rotations[k], state.joint_rates[k], still);
+        let mut energy = body.energy_of(&tree.base);
+        let mut motions: Vec<Motion<T>> = Vec::with_capacity(rotations.len());
+        for (k, joint) in tree.joints.iter().enumerate() {
+            let Placement { position_m, rotation } = tree.start(k);
+            let parent = joint.parent.map_or(body, |parent| motions[parent]);
+            let before = Motion { origin: swing(&parent, &position_m), ..parent };
+            let rate = state.joint_rates[joint.coordinate];
+            let motion = before.rotated_back(&rotation).turned(&rotations[k], rate, still);
             energy += motion.energy_of(&joint.body);
-            motion = Motion { origin: swing(&motion, &joint.offset), ..motion }
-                .rotated_back(&joint.twist.about_x());
+            motions.push(motion);
         }
         energy
     }

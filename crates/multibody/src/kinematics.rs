@@ -3,12 +3,13 @@
 use crate::algebra::{
     PlaneRotation, combination, constant, difference, plus_multiple, scaled, sum, zero,
 };
-use crate::chain::{Chain, Joint, LinkCenter};
+use crate::bodies::Placement;
 use crate::distance::Segment;
 use crate::parts::DhConvention;
+use crate::rows::Rows;
 use crate::sweep::group_rotations;
 use crate::system::System;
-use crate::turn::Turn;
+use crate::tree::{Carried, Joint, Tree};
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
@@ -35,24 +36,24 @@ impl<T: Scalar> Frame<T> {
         along(along(along(self.origin, 0), 1), 2)
     }
 
+    /// The frame that sits at `position` in this one and whose vectors `rotation` turns into this one's.
+    pub(crate) fn carried(&self, position: &Vector3<f64>, rotation: &Matrix3<f64>) -> Self {
+        let [x, y, z] = &self.axes;
+        let mixed = |i: usize| {
+            Vector3::from_fn(|row, _| {
+                let entries = [(rotation[(0, i)], x[row]), (rotation[(1, i)], y[row])];
+                combination([entries[0], entries[1], (rotation[(2, i)], z[row])])
+            })
+        };
+        Self { origin: self.point(position), axes: [0, 1, 2].map(mixed) }
+    }
+
     fn turned(&self, rotation: &PlaneRotation<T>) -> Self {
         let [x, y, z] = self.axes;
         let PlaneRotation { sin, cos } = *rotation;
         let first = sum(&scaled(&x, cos), &scaled(&y, sin));
         let second = difference(&scaled(&y, cos), &scaled(&x, sin));
         Self { origin: self.origin, axes: [first, second, z] }
-    }
-
-    fn twisted(&self, twist: Turn) -> Self {
-        if twist.is_none() {
-            return self.clone();
-        }
-        let matrix = twist.about_x();
-        let [x, y, z] = self.axes;
-        let mixed = |i: usize| {
-            y.zip_map(&z, |y, z| combination([(matrix[(1, i)], y), (matrix[(2, i)], z)]))
-        };
-        Self { origin: self.origin, axes: [x, mixed(1), mixed(2)] }
     }
 }
 
@@ -63,11 +64,12 @@ pub struct Kinematics<T> {
     pub joint_axes: Vec<Vector3<T>>,
     /// A point on each joint's axis, the same for every value of that joint's angle, m.
     pub joint_origins: Vec<Vector3<T>>,
-    /// Denavit-Hartenberg frames 0…j; frame 0 is the mount.
+    /// Of rows, the Denavit-Hartenberg frames 0…j; frame 0 is the mount. Of bodies, the body frame and then
+    /// the frame of each body.
     pub frames: Vec<Frame<T>>,
-    /// Each link's straight segment from its inboard to its outboard origin.
+    /// Of rows, each link's straight segment from its inboard to its outboard origin; none of bodies.
     pub segments: Vec<Segment<T>>,
-    /// Centre of mass of each link, m.
+    /// Centre of mass of each link or body, m.
     pub centers_of_mass: Vec<Vector3<T>>,
 }
 
@@ -78,47 +80,33 @@ impl System {
     /// `q` does not have one angle a joint.
     pub fn kinematics<T: Scalar>(&self, q: &[T]) -> Kinematics<T> {
         self.assert_joint_slice(q);
-        let chain = &self.chain;
-        let rotations = group_rotations(chain, q);
-        let mount = Frame {
-            origin: constant(&self.mount().position_m),
-            axes: columns(self.mount().rotation.matrix()),
+        let tree = &self.tree;
+        let joint_frames = joint_frames(tree, &group_rotations(tree, q));
+        let in_coordinates = |of: fn(&Frame<T>) -> Vector3<T>| {
+            let mut values = vec![zero(); q.len()];
+            for (joint, frame) in tree.joints.iter().zip(&joint_frames) {
+                values[joint.coordinate] = of(frame);
+            }
+            values
         };
-        let joint_count = self.joint_count();
-        let joint_frames = joint_frames(chain, &rotations);
-        let joint_axes = joint_frames.iter().map(|frame| frame.axes[2]).collect();
-        let joint_origins = joint_frames.iter().map(|frame| frame.origin).collect();
-        let centers_of_mass = chain
-            .link_centers
-            .iter()
-            .map(|center| match center {
-                LinkCenter::OnBase(position) => constant(position),
-                LinkCenter::OnJoint(joint, position) => joint_frames[*joint].point(position),
-            })
-            .collect();
-        let mut frames = vec![mount];
-        let mut segments = Vec::with_capacity(joint_count);
-        match self.convention() {
-            DhConvention::Standard => {
-                for (frame, joint) in joint_frames.iter().zip(&chain.joints) {
-                    frames.push(outboard(frame, joint));
-                    segments.push(segment(frame, &joint.offset));
-                }
+        let frame = |carried: &Carried| {
+            let Placement { position_m, rotation } = &carried.placement;
+            match carried.joint {
+                Some(joint) => joint_frames[joint].carried(position_m, rotation),
+                None => Frame { origin: constant(position_m), axes: columns(rotation) },
             }
-            DhConvention::Modified => {
-                let fixed = chain.root_position - self.mount().position_m;
-                segments.push(Segment {
-                    start: frames[0].origin,
-                    direction: constant(&fixed),
-                    length_squared: T::from(fixed.norm_squared()),
-                });
-                for (frame, joint) in joint_frames.iter().zip(&chain.joints).take(joint_count - 1) {
-                    segments.push(segment(frame, &joint.offset));
-                }
-                frames.extend(joint_frames);
-            }
+        };
+        let center = |(joint, position): &(Option<usize>, Vector3<f64>)| match joint {
+            Some(joint) => joint_frames[*joint].point(position),
+            None => constant(position),
+        };
+        Kinematics {
+            joint_axes: in_coordinates(|frame| frame.axes[2]),
+            joint_origins: in_coordinates(|frame| frame.origin),
+            frames: tree.frames.iter().map(frame).collect(),
+            segments: self.rows().map_or_else(Vec::new, |rows| segments(tree, rows, &joint_frames)),
+            centers_of_mass: tree.centers.iter().map(center).collect(),
         }
-        Kinematics { joint_axes, joint_origins, frames, segments, centers_of_mass }
     }
 
     pub(crate) fn assert_joint_slice<T>(&self, values: &[T]) {
@@ -126,18 +114,25 @@ impl System {
     }
 }
 
-/// The frames K of the joints (see [`Chain`]) in body axes.
+/// The frames K of the joints (see [`Tree`]) in body axes.
 pub(crate) fn joint_frames<T: Scalar>(
-    chain: &Chain,
+    tree: &Tree,
     rotations: &[PlaneRotation<T>],
 ) -> Vec<Frame<T>> {
     // The frame in which the joints of the current group turn.
     let mut group =
-        Frame { origin: constant(&chain.root_position), axes: columns(&chain.root_rotation) };
-    let mut frames = Vec::with_capacity(chain.joints.len());
-    for (joint, rotation) in chain.joints.iter().zip(rotations) {
+        Frame { origin: constant(&tree.root_position), axes: columns(&tree.root_rotation) };
+    let mut frames: Vec<Frame<T>> = Vec::with_capacity(tree.joints.len());
+    for (k, (joint, rotation)) in tree.joints.iter().zip(rotations).enumerate() {
+        if joint.branch.is_some() {
+            let Placement { position_m, rotation } = tree.start(k);
+            group = match joint.parent {
+                Some(parent) => frames[parent].carried(&position_m, &rotation),
+                None => Frame { origin: constant(&position_m), axes: columns(&rotation) },
+            };
+        }
         let frame = group.turned(rotation);
-        group = if joint.twist.is_none() {
+        group = if tree.continues_group(k + 1) {
             Frame { origin: frame.point(&joint.offset), axes: group.axes }
         } else {
             outboard(&frame, joint)
@@ -147,9 +142,27 @@ pub(crate) fn joint_frames<T: Scalar>(
     frames
 }
 
+/// Of rows, each link's segment from its inboard to its outboard origin.
+fn segments<T: Scalar>(tree: &Tree, rows: &Rows, frames: &[Frame<T>]) -> Vec<Segment<T>> {
+    let moving = frames.iter().zip(&tree.joints);
+    let moving = moving.map(|(frame, joint)| segment(frame, &joint.offset));
+    match rows.convention {
+        DhConvention::Standard => moving.collect(),
+        DhConvention::Modified => {
+            let fixed = tree.root_position - rows.mount.position_m;
+            let first = Segment {
+                start: constant(&rows.mount.position_m),
+                direction: constant(&fixed),
+                length_squared: T::from(fixed.norm_squared()),
+            };
+            std::iter::once(first).chain(moving.take(rows.links.len() - 1)).collect()
+        }
+    }
+}
+
 /// The frame of a joint carried through the joint's offset and twist.
 fn outboard<T: Scalar>(frame: &Frame<T>, joint: &Joint) -> Frame<T> {
-    Frame { origin: frame.point(&joint.offset), axes: frame.axes }.twisted(joint.twist)
+    frame.carried(&joint.offset, &joint.twist.about_x())
 }
 
 fn columns<T: Scalar>(matrix: &Matrix3<f64>) -> [Vector3<T>; 3] {

@@ -1,6 +1,6 @@
-//! Free-floating base and chain of revolute joints.
+//! Free-floating base and the tree of revolute joints on it.
 //!
-//! A base body 0 carries an arm of revolute joints q ∈ R^j; no force acts from outside. With r_i,
+//! A base body 0 carries bodies on revolute joints q ∈ R^j; no force acts from outside. With r_i,
 //! r_CM the centres of mass of bodies and system from the body-frame origin, in body axes, and a
 //! prime for the derivative seen from the body frame, the angular momentum about the system's centre
 //! of mass is (Bhundiya, Soval, Albee 2026, equations 2 to 4)
@@ -50,9 +50,10 @@
 //! ```
 //!
 //! # Conventions
-//! SI units and radians. The body frame's origin is the base's centre of mass. Quaternions are
+//! SI units and radians. The body frame's origin is wherever the base's centre of mass is given from, by
+//! default that itself. Quaternions are
 //! scalar first, multiply by Hamilton's rule and turn body vectors into inertial ones; ω is in body
-//! axes, r and ṙ are inertial. See [`DhConvention`] for the chain. Everything is generic over
+//! axes, r and ṙ are inertial. See [`DhConvention`] for rows of parameters, [`JointedBody`] for trees. Everything is generic over
 //! [`Scalar`](righting_scalar::Scalar): numbers, dual numbers and expressions run the same code,
 //! which therefore never compares what depends on a coordinate.
 //!
@@ -80,7 +81,7 @@
 mod algebra;
 mod attitude;
 mod bodies;
-mod chain;
+mod branches;
 mod clearance;
 mod composite;
 mod core;
@@ -91,15 +92,19 @@ mod dynamics;
 mod error;
 mod inertia;
 mod inverse_dynamics;
+mod jointed_body;
 mod kinematics;
 mod momentum;
 mod momentum_map;
 mod nearest_inertia;
 mod parts;
+mod rows;
 mod state;
 mod sweep;
 mod symmetric;
 mod system;
+mod tree;
+mod tree_of_bodies;
 mod turn;
 mod units;
 
@@ -111,10 +116,12 @@ pub use distance::Segment;
 pub use dynamics::BaseAcceleration;
 pub use error::{ModelError, Part};
 pub use inverse_dynamics::InverseDynamics;
+pub use jointed_body::{BodyJoint, JointedBody};
 pub use kinematics::{Frame, Kinematics};
 pub use momentum_map::MomentumMap;
 pub use nearest_inertia::nearest_inertia;
 pub use parts::{Base, DhConvention, InertialFrame, Link, Mount, Payload};
+pub use rows::Rows;
 pub use state::State;
 pub use system::System;
 pub use units::Units;

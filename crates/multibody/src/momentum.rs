@@ -123,7 +123,7 @@ impl System {
     fn composite<T: Scalar>(&self, q: &[T], qdot: &[T]) -> Composite<T> {
         self.assert_joint_slice(q);
         self.assert_joint_slice(qdot);
-        Composite::new(&self.chain, q, qdot)
+        Composite::new(&self.tree, q, qdot)
     }
 
     fn composite_at_rest<T: Scalar>(&self, q: &[T]) -> Composite<T> {

@@ -1,6 +1,8 @@
 //! The angular momentum as a linear map of the rates.
 
-use crate::algebra::{constant, constant_rotation, cross, sum, zero};
+use crate::algebra::{constant, constant_rotation, cross, difference, scaled, sum, zero};
+use crate::branches::{Beyond, Branches};
+use crate::coupling::Coupling;
 use crate::kinematics::{Frame, joint_frames};
 use crate::sweep::{Moments, group_rotations};
 use crate::symmetric::Symmetric;
@@ -28,43 +30,81 @@ impl System {
     /// `q` does not have one angle a joint.
     pub fn momentum_map<T: Scalar>(&self, q: &[T]) -> MomentumMap<T> {
         self.assert_joint_slice(q);
-        let chain = &self.chain;
-        let frames = joint_frames(chain, &group_rotations(chain, q));
-        let in_body_axes =
-            |k: usize, c: &Vector3<f64>| Frame { origin: zero(), axes: frames[k].axes }.point(c);
-        let arms: Vec<Vector3<T>> = chain
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(k, joint)| in_body_axes(k, &joint.coupling.arm))
-            .collect();
-        let across = constant_rotation(&chain.root_rotation, &constant(&chain.root.across));
-        // From the point that momenta are counted about at joint k to the base's.
-        let mut reach = across;
-        let mut reaches = Vec::with_capacity(arms.len());
-        for arm in &arms {
+        let tree = &self.tree;
+        let frames = joint_frames(tree, &group_rotations(tree, q));
+        let turned = |k: Option<usize>, c: &Vector3<f64>| match k {
+            Some(k) => Frame { origin: zero(), axes: frames[k].axes }.point(c),
+            None => constant(c),
+        };
+        let coupled = |k: Option<usize>, coupling: &Coupling, beyond: &Moments<T>| {
+            let arm = turned(k, &coupling.arm);
+            let middle = sum(&beyond.first, &turned(k, &coupling.half));
+            let mut second = beyond.second.plus_outer(&middle, &arm);
+            if let Some(rest) = &coupling.rest {
+                let rest = Symmetric::constant(rest);
+                let rest = k.map_or(rest, |k| rest.rotated_by(&frames[k].axes));
+                second = second.plus_matrix(&rest);
+            }
+            Moments { first: sum(&beyond.first, &turned(k, &coupling.first)), second }
+        };
+        // Inward: what lies beyond each joint, from its origin, and the first moment of what goes on from
+        // it and of what branches off, from the origin of the joint where that begins.
+        let mut branches = Branches::of(tree);
+        let mut beyond = Moments::zero();
+        let mut all = vec![Moments::zero(); frames.len()];
+        let mut onward = vec![zero(); frames.len()];
+        let mut branching = vec![zero(); frames.len()];
+        for (k, joint) in tree.joints.iter().enumerate().rev() {
+            beyond = coupled(Some(k), &joint.coupling, &beyond);
+            onward[k] = beyond.first;
+            beyond = branches.join(Some(k), Beyond::at_rest(beyond)).moments;
+            all[k] = beyond;
+            if let Some(branch) = &joint.branch {
+                let shifted = coupled(joint.parent, &branch.coupling, &beyond);
+                branching[k] = shifted.first;
+                branches.hand_over(joint.parent, Beyond::at_rest(shifted));
+                beyond = Moments::zero();
+            }
+        }
+        let whole = branches.join(None, Beyond::at_rest(beyond)).moments;
+
+        // Outward: from the point that momenta are counted about at a joint to the base's. Where several
+        // come together, what the others have of the first moment moves the center that counts.
+        let across = constant_rotation(&tree.root_rotation, &constant(&tree.root.across));
+        let of_others = |reach: &Vector3<T>, all: &Moments<T>, own: &Vector3<T>| {
+            let others = difference(&all.first, own);
+            difference(reach, &scaled(&others, T::from(self.total_mass().recip())))
+        };
+        let mut reaches: Vec<Vector3<T>> = Vec::with_capacity(frames.len());
+        for (k, joint) in tree.joints.iter().enumerate() {
+            let to_parent = joint.parent.map_or(across, |parent| reaches[parent]);
+            let reach = match (&joint.branch, joint.parent) {
+                (Some(branch), parent) => {
+                    let reach = sum(&to_parent, &turned(parent, &branch.coupling.arm));
+                    of_others(&reach, parent.map_or(&whole, |parent| &all[parent]), &branching[k])
+                }
+                (None, Some(parent)) => {
+                    let reach =
+                        sum(&to_parent, &turned(Some(parent), &tree.joints[parent].coupling.arm));
+                    match tree.has_branches(parent) {
+                        true => of_others(&reach, &all[parent], &onward[parent]),
+                        false => reach,
+                    }
+                }
+                (None, None) => to_parent,
+            };
             reaches.push(reach);
-            reach = sum(&reach, arm);
         }
 
-        let mut beyond = Moments::zero();
-        let mut columns = vec![zero(); arms.len()];
-        for (k, joint) in chain.joints.iter().enumerate().rev() {
-            let coupling = &joint.coupling;
-            let middle = sum(&beyond.first, &in_body_axes(k, &coupling.half));
-            let mut second = beyond.second.plus_outer(&middle, &arms[k]);
-            if let Some(rest) = &coupling.rest {
-                let turned = Symmetric::constant(rest).rotated_by(&frames[k].axes);
-                second = second.plus_matrix(&turned);
-            }
-            let first = sum(&beyond.first, &in_body_axes(k, &coupling.first));
-            beyond = Moments { first, second };
+        let mut columns = vec![zero(); frames.len()];
+        for (k, joint) in tree.joints.iter().enumerate() {
+            let Moments { first, second } = &all[k];
             let axis = &frames[k].axes[2];
             let spin = second.inertia().times(axis);
-            columns[k] = sum(&spin, &cross(&reaches[k], &cross(axis, &first)));
+            columns[joint.coordinate] = sum(&spin, &cross(&reaches[k], &cross(axis, first)));
         }
-        let base = Symmetric::constant(&chain.root.second).rotated(&chain.root_rotation);
-        let second = beyond.second.plus_outer(&beyond.first, &across).plus_matrix(&base);
+        let base = Symmetric::constant(&tree.root.second).rotated(&tree.root_rotation);
+        let second = whole.second.plus_outer(&whole.first, &across).plus_matrix(&base);
         MomentumMap {
             inertia: second.inertia().to_matrix(),
             joint_columns: Matrix3xX::from_columns(&columns),

@@ -4,17 +4,19 @@ use crate::error::{ModelError, Part};
 use crate::inertia::{self, Definiteness};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-/// The base body. Its centre of mass is the origin of the body frame.
+/// The base body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Base {
     /// Mass, kg.
     pub mass_kg: f64,
+    /// Centre of mass from the origin of the body frame, body axes, m.
+    pub center_of_mass_m: Vector3<f64>,
     /// Inertia about the centre of mass, body axes, kg m².
     pub inertia_kg_m2: Matrix3<f64>,
 }
 
 impl Base {
-    /// A uniform cube of side `side_m`: inertia m s²/6 about every axis.
+    /// A uniform cube of side `side_m` about the origin: inertia m s²/6 about every axis.
     ///
     /// # Errors
     /// The side is not a positive, finite number.
@@ -23,13 +25,17 @@ impl Base {
             return Err(ModelError::CubeSide { side_m });
         }
         let moment = mass_kg * side_m * side_m / 6.0;
-        Ok(Self { mass_kg, inertia_kg_m2: Matrix3::from_diagonal_element(moment) })
+        let inertia_kg_m2 = Matrix3::from_diagonal_element(moment);
+        Ok(Self { mass_kg, center_of_mass_m: Vector3::zeros(), inertia_kg_m2 })
     }
 
     pub(crate) fn check(&self) -> Result<(), ModelError> {
         check_mass(Part::Base, self.mass_kg)?;
         if self.mass_kg == 0.0 {
             return Err(ModelError::MasslessBase);
+        }
+        for value in &self.center_of_mass_m {
+            check_finite(Part::Base, "center_of_mass_m", *value)?;
         }
         inertia::check(Part::Base, &self.inertia_kg_m2, Definiteness::Positive)
     }
@@ -54,18 +60,7 @@ impl Mount {
         for value in &self.position_m {
             check_finite(Part::Mount, "position_m", *value)?;
         }
-        for value in self.rotation.matrix() {
-            check_finite(Part::Mount, "rotation", *value)?;
-        }
-        let matrix = self.rotation.matrix();
-        let mut deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();
-        if matrix.determinant() < 0.0 {
-            deviation = deviation.max(2.0);
-        }
-        if deviation > 1e-9 {
-            return Err(ModelError::NotARotation { deviation });
-        }
-        Ok(())
+        check_rotation(Part::Mount, "rotation", self.rotation.matrix())
     }
 }
 
@@ -204,7 +199,26 @@ impl Payload {
     }
 }
 
-fn check_inertia(
+/// Checks that a matrix turns vectors.
+pub(crate) fn check_rotation(
+    part: Part,
+    quantity: &'static str,
+    matrix: &Matrix3<f64>,
+) -> Result<(), ModelError> {
+    for value in matrix {
+        check_finite(part, quantity, *value)?;
+    }
+    let mut deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();
+    if matrix.determinant() < 0.0 {
+        deviation = deviation.max(2.0);
+    }
+    match deviation > 1e-9 {
+        true => Err(ModelError::NotARotation { part, deviation }),
+        false => Ok(()),
+    }
+}
+
+pub(crate) fn check_inertia(
     part: Part,
     mass_kg: f64,
     inertia_kg_m2: Option<&Matrix3<f64>>,
@@ -217,7 +231,7 @@ fn check_inertia(
     Ok(())
 }
 
-fn check_mass(part: Part, mass_kg: f64) -> Result<(), ModelError> {
+pub(crate) fn check_mass(part: Part, mass_kg: f64) -> Result<(), ModelError> {
     check_finite(part, "mass_kg", mass_kg)?;
     if mass_kg < 0.0 {
         return Err(ModelError::NegativeMass { part, mass_kg });
@@ -225,6 +239,10 @@ fn check_mass(part: Part, mass_kg: f64) -> Result<(), ModelError> {
     Ok(())
 }
 
-fn check_finite(part: Part, quantity: &'static str, value: f64) -> Result<(), ModelError> {
+pub(crate) fn check_finite(
+    part: Part,
+    quantity: &'static str,
+    value: f64,
+) -> Result<(), ModelError> {
     if value.is_finite() { Ok(()) } else { Err(ModelError::NotFinite { part, quantity, value }) }
 }

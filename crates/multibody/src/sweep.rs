@@ -9,11 +9,11 @@ use crate::algebra::{
     PlaneRotation, combination, constant_cross, constant_rotation, offset_by, plus, plus_multiple,
     sum, zero,
 };
-use crate::chain::Chain;
 use crate::coupling::Coupling;
 use crate::symmetric::Symmetric;
+use crate::tree::{Joint, Tree};
 use crate::turn::Turn;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
 impl<T: Scalar> PlaneRotation<T> {
@@ -43,23 +43,23 @@ impl<T: Scalar> PlaneRotation<T> {
 }
 
 /// Each joint's rotation from K to the axes in which the joint turns.
-pub(crate) fn joint_rotations<T: Scalar>(chain: &Chain, q: &[T]) -> Vec<PlaneRotation<T>> {
-    let joints = chain.joints.iter().zip(q);
-    joints.map(|(joint, angle)| PlaneRotation::of(*angle, joint.angle)).collect()
+pub(crate) fn joint_rotations<T: Scalar>(tree: &Tree, q: &[T]) -> Vec<PlaneRotation<T>> {
+    let rotation = |joint: &Joint| PlaneRotation::of(q[joint.coordinate], joint.angle);
+    tree.joints.iter().map(rotation).collect()
 }
 
 /// Each joint's rotation from K to the axes in which its group turns: by the sum of the angles from
 /// the group's first joint to this one.
-pub(crate) fn group_rotations<T: Scalar>(chain: &Chain, q: &[T]) -> Vec<PlaneRotation<T>> {
+pub(crate) fn group_rotations<T: Scalar>(tree: &Tree, q: &[T]) -> Vec<PlaneRotation<T>> {
     let mut rotations = Vec::with_capacity(q.len());
     let mut angle = T::from(0.0);
     let mut start = Turn::NONE;
-    for (k, joint) in chain.joints.iter().enumerate() {
-        if chain.continues_group(k) {
-            angle += q[k];
+    for (k, joint) in tree.joints.iter().enumerate() {
+        if tree.continues_group(k) {
+            angle += q[joint.coordinate];
             start = start.plus(joint.angle);
         } else {
-            angle = q[k];
+            angle = q[joint.coordinate];
             start = joint.angle;
         }
         rotations.push(PlaneRotation::of(angle, start));
@@ -80,18 +80,19 @@ pub(crate) struct SweepRotations<T> {
 }
 
 impl<T: Scalar> SweepRotations<T> {
-    pub fn new(chain: &Chain, q: &[T]) -> Self {
-        let mut joints = group_rotations(chain, q);
-        if !chain.root.symmetric {
+    pub fn new(tree: &Tree, q: &[T]) -> Self {
+        let mut joints = group_rotations(tree, q);
+        if !tree.root.symmetric {
             return Self { joints, last: PlaneRotation::none() };
         }
-        let tip = (0..joints.len()).find(|k| !chain.continues_group(k + 1)).unwrap_or(0);
+        let tip = (0..joints.len()).find(|k| !tree.continues_group(k + 1)).unwrap_or(0);
         let last = std::mem::replace(&mut joints[tip], PlaneRotation::none());
         let mut angle = T::from(0.0);
         let mut start = Turn::NONE;
         for k in (0..tip).rev() {
-            angle -= q[k + 1];
-            start = start.minus(chain.joints[k + 1].angle);
+            let next = &tree.joints[k + 1];
+            angle -= q[next.coordinate];
+            start = start.minus(next.angle);
             joints[k] = PlaneRotation::of(angle, start);
         }
         Self { joints, last }
@@ -144,10 +145,14 @@ impl<T: Scalar> Moments<T> {
         if twist.is_none() {
             return self;
         }
-        let matrix = twist.about_x();
+        self.rotated(&twist.about_x())
+    }
+
+    /// From one set of axes to another.
+    pub fn rotated(self, rotation: &Matrix3<f64>) -> Self {
         Self {
-            first: constant_rotation(&matrix, &self.first),
-            second: self.second.rotated(&matrix),
+            first: constant_rotation(rotation, &self.first),
+            second: self.second.rotated(rotation),
         }
     }
 
@@ -192,10 +197,14 @@ impl<T: Scalar> Pair<T> {
         if twist.is_none() {
             return self;
         }
-        let matrix = twist.about_x();
+        self.rotated(&twist.about_x())
+    }
+
+    /// From one set of axes to another.
+    pub fn rotated(&self, rotation: &Matrix3<f64>) -> Self {
         Self {
-            linear: constant_rotation(&matrix, &self.linear),
-            angular: constant_rotation(&matrix, &self.angular),
+            linear: constant_rotation(rotation, &self.linear),
+            angular: constant_rotation(rotation, &self.angular),
         }
     }
 

@@ -49,6 +49,18 @@ impl Turn {
         Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos).map(|entry| entry + 0.0)
     }
 
+    /// Rotation about y by this angle.
+    pub fn about_y(self) -> Matrix3<f64> {
+        let (sin, cos) = self.sin_cos();
+        Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos).map(|entry| entry + 0.0)
+    }
+
+    /// Rotation about z by this angle.
+    pub fn about_z(self) -> Matrix3<f64> {
+        let (sin, cos) = self.sin_cos();
+        Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0).map(|entry| entry + 0.0)
+    }
+
     pub fn sin_cos(self) -> (f64, f64) {
         let (sin, cos) = self.rest_rad.sin_cos();
         match self.quarters {

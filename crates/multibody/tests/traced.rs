@@ -62,7 +62,8 @@ fn torques<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
 /// y = q: every squared distance that a planner may ask for.
 fn distances<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let links = 0..system.joint_count();
-    let long: Vec<usize> = links.filter(|&i| system.links()[i].length_m() > 0.0).collect();
+    let long: Vec<usize> =
+        links.filter(|&i| system.rows().unwrap().links[i].length_m() > 0.0).collect();
     let to_base = long
         .iter()
         .map(|&a| system.squared_distance_to_point(y, &Core::Link(a), &Vector3::zeros()));
@@ -82,7 +83,7 @@ fn box_distances<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let posture = system.kinematics(y);
     let links = 0..system.joint_count();
     links
-        .filter(|&i| system.links()[i].length_m() > 0.0)
+        .filter(|&i| system.rows().unwrap().links[i].length_m() > 0.0)
         .map(|link| cuboid.signed_distance(&posture.core(&Core::Link(link))))
         .collect()
 }
@@ -192,6 +193,23 @@ fn operations_stay_what_they_were() {
             println!("{name}, {}: {} operations, with derivatives {}", model.0, now.0, now.1);
             assert!(now.0 <= value + value / 20, "{name}, {}: {} above {value}", model.0, now.0);
             assert!(now.1 <= all + all / 20, "{name}, {}: {} above {all}", model.0, now.1);
+        }
+    }
+}
+
+/// Frames of bodies stand where their author put them; the tree is no dearer for it.
+#[test]
+fn a_serial_arm_of_bodies_costs_what_its_rows_cost() {
+    for (name, rows) in &table_one::all()[..3] {
+        let bodies = table_one::as_bodies(rows);
+        // Distances are between links, which bodies have none of.
+        for model in &MODELS[..5] {
+            let [of_rows, of_bodies] = [rows, &bodies].map(|system| operations(system, model));
+            println!(
+                "{name}, {}: {of_rows:?} operations in rows, {of_bodies:?} in bodies",
+                model.0
+            );
+            assert!(of_bodies.0 <= of_rows.0 && of_bodies.1 <= of_rows.1, "{name}, {}", model.0);
         }
     }
 }

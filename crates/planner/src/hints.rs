@@ -106,8 +106,8 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
         if share >= MOST_OF_THE_TIME {
             let percent = (100.0 * share).round();
             active.push(format!(
-                "joint {} is at its {what} limit {percent} % of the time",
-                joint + 1
+                "{} is at its {what} limit {percent} % of the time",
+                scenario.system().names.joint(joint)
             ));
         }
     };

@@ -213,10 +213,25 @@ fn system(scenario: &file::Scenario) -> Option<&file::System> {
 pub fn is_same_arm(a: &file::Scenario, b: &file::Scenario) -> bool {
     let (Some(a), Some(b)) = (system(a), system(b)) else { return false };
     let row = |link: &file::Link| [link.a_m, link.alpha_deg, link.d_m, link.theta_deg];
-    a.dh_convention == b.dh_convention
-        && a.mount == b.mount
-        && a.links.len() == b.links.len()
-        && a.links.iter().zip(&b.links).all(|(a, b)| row(a) == row(b))
+    let rows = a.links.len() == b.links.len()
+        && a.links.iter().zip(&b.links).all(|(a, b)| row(a) == row(b));
+    let bodies = match (&a.bodies, &b.bodies) {
+        (Some(a), Some(b)) => is_same_tree(a, b),
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    rows && bodies && a.dh_convention == b.dh_convention && a.mount == b.mount
+}
+
+/// Whether the joints of bodies are where those of others are.
+fn is_same_tree(a: &[file::Body], b: &[file::Body]) -> bool {
+    let place = |body: &file::Body| {
+        let file::Joint { kind, position_m, rpy_deg, rotation, axis, .. } = body.joint;
+        (body.parent.clone(), kind, (position_m, rpy_deg, rotation, axis))
+    };
+    let names = |bodies: &[file::Body]| -> Vec<String> {
+        bodies.iter().map(|body| body.name.clone()).collect()
+    };
+    names(a) == names(b) && a.iter().map(place).eq(b.iter().map(place))
 }
 
 /// How far two maneuvers of the same arm are from each other; none if they are of different types.
@@ -250,13 +265,14 @@ fn rotation_vector(scenario: &file::Scenario) -> Option<Vector3<f64>> {
     Some(axis * angle_deg.to_radians())
 }
 
-/// Of the base, the payload and every link.
+/// Of the base, the payload and every link or body.
 fn masses(scenario: &file::Scenario) -> impl Iterator<Item = f64> {
     let system = system(scenario);
     let base = system.map(|system| system.base.mass_kg);
     let payload = system.map(|system| system.payload.as_ref().map_or(0.0, |body| body.mass_kg));
     let links = system.into_iter().flat_map(|system| &system.links).map(|link| link.mass_kg);
-    base.into_iter().chain(payload).chain(links)
+    let bodies = system.into_iter().flat_map(|system| system.bodies.iter().flatten());
+    base.into_iter().chain(payload).chain(links).chain(bodies.map(|body| body.mass_kg))
 }
 
 fn log_ratio(a: f64, b: f64) -> f64 {

@@ -79,6 +79,8 @@ impl ThinLinks {
                 .map(|(&a_m, &alpha_deg)| thin_link(4.0 * a_m, a_m, alpha_deg, [60.0, 40.0]))
                 .collect();
             system.base = file::Base {
+                name: None,
+                center_of_mass_m: None,
                 mass_kg: 60.0,
                 cube_side_m: None,
                 inertia_kg_m2: Some([[4.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 6.0]]),

@@ -77,7 +77,7 @@ fn a_plan_does_not_depend_on_the_choice_of_body_axes() {
             let other = varied(&scenario, |file| {
                 file.maneuver.axis = file.maneuver.axis.map(turned);
                 file.initial.angular_rate_deg_s = file.initial.angular_rate_deg_s.map(turned);
-                let mount = &mut system(file).mount;
+                let mount = &mut system(file).mount.as_mut().unwrap();
                 mount.position_m = turned(mount.position_m);
                 let [x, y, z, w]: [f64; 4] = turn.coords.into();
                 mount.rotation = Some([w, x, y, z]);

@@ -88,10 +88,17 @@ fn each_limit_alone_and_all_together_are_kept_by_every_arm() {
                     peaks.limit_torques(system, 0.85);
                 }),
             ),
-            ("force", Box::new(|system| system.mount.force_max_n = Some(0.85 * peaks.force_n))),
+            (
+                "force",
+                Box::new(|system| {
+                    system.mount.as_mut().unwrap().force_max_n = Some(0.85 * peaks.force_n)
+                }),
+            ),
             (
                 "moment",
-                Box::new(|system| system.mount.moment_max_n_m = Some(0.85 * peaks.moment_n_m)),
+                Box::new(|system| {
+                    system.mount.as_mut().unwrap().moment_max_n_m = Some(0.85 * peaks.moment_n_m)
+                }),
             ),
             (
                 "rate",
@@ -103,8 +110,8 @@ fn each_limit_alone_and_all_together_are_kept_by_every_arm() {
                 "all",
                 Box::new(|system| {
                     peaks.limit_torques(system, 0.95);
-                    system.mount.force_max_n = Some(0.95 * peaks.force_n);
-                    system.mount.moment_max_n_m = Some(0.95 * peaks.moment_n_m);
+                    system.mount.as_mut().unwrap().force_max_n = Some(0.95 * peaks.force_n);
+                    system.mount.as_mut().unwrap().moment_max_n_m = Some(0.95 * peaks.moment_n_m);
                     system.base.angular_rate_max_deg_s = Some(rate_share * peaks.rate_deg_s);
                 }),
             ),
@@ -138,7 +145,7 @@ fn a_limit_that_is_not_reached_changes_no_plan() {
     let free = plan(&shipped("slew_2dof"));
     let scenario = varied(&shipped("slew_2dof"), |file| {
         system(file).links[0].torque_max_n_m = Some(1e3);
-        system(file).mount.moment_max_n_m = Some(1e3);
+        system(file).mount.as_mut().unwrap().moment_max_n_m = Some(1e3);
         system(file).base.angular_rate_max_deg_s = Some(100.0);
     });
     let planned = plan(&scenario);

@@ -133,7 +133,7 @@ fn angles_that_no_motion_makes_fail_without_a_solve() {
         let righting_scenario::file::SystemReference::Inline(system) = &mut file.system else {
             panic!("a resolved system is inline")
         };
-        system.mount.position_m = [0.0; 3];
+        system.mount.as_mut().unwrap().position_m = [0.0; 3];
         system.links.remove(0);
         system.links[0].theta_deg = 0.0;
         file.initial.joint_angles_deg = vec![0.0];

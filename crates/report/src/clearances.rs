@@ -89,7 +89,7 @@ fn panel(heading: &str, mut histories: Vec<&ClearanceHistory>) -> Panel {
 fn short_name(between: Between) -> String {
     let short = |piece: Piece| {
         let part = match piece.part {
-            ArmPart::Link(link) => (link + 1).to_string(),
+            ArmPart::Link(place) | ArmPart::Body(place) => (place + 1).to_string(),
             ArmPart::Payload => "P".to_owned(),
         };
         piece.shape.map_or(part.clone(), |shape| format!("{part}.{}", shape + 1))

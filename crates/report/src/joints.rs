@@ -1,7 +1,8 @@
 //! `joints.svg`: what the arm does.
 
 use righting_results::{Solution, Trajectory};
-use righting_scenario::file::{Link, Scenario, SystemReference};
+use righting_scenario::Names;
+use righting_scenario::file::{JointRow, Scenario, SystemReference};
 
 use crate::figure::{Figure, heading};
 use crate::number::drawn;
@@ -11,13 +12,15 @@ use crate::style;
 const PANEL_SIZE: [f64; 2] = [290.0, 92.0];
 /// Below these heights (deg, deg/s, deg/s², deg/s³) a curve counts as constant.
 const LEAST_SPANS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+/// Heading and note of a panel have room side by side up to so many characters.
+const HEAD_CHARACTERS: usize = 48;
 
 /// The figure of angle, rate, acceleration and, where the plan has it, jerk of every joint with its limits,
 /// as an SVG document: one row a joint, one column a quantity, degrees throughout.
 pub fn joints_svg(solution: &Solution, trajectory: &Trajectory) -> String {
-    let links = links(&solution.scenario);
+    let (rows, names) = joints(&solution.scenario);
     let panels = (0..trajectory.joints())
-        .flat_map(|joint| joint_panels(trajectory, joint, links.get(joint)))
+        .flat_map(|joint| joint_panels(trajectory, joint, rows.get(joint), &names.joint(joint)))
         .collect();
     let (title, subtitle) = heading(solution);
     let figure = Figure {
@@ -32,28 +35,34 @@ pub fn joints_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     figure.render()
 }
 
-/// The links of a resolved scenario; none if the system is a file, which a result never has.
-fn links(scenario: &Scenario) -> &[Link] {
+/// The joints of a resolved scenario; none if the system is a file, which a result never has.
+fn joints(scenario: &Scenario) -> (Vec<JointRow>, Names) {
     match &scenario.system {
-        SystemReference::Inline(system) => &system.links,
-        SystemReference::File(_) => &[],
+        SystemReference::Inline(system) => (system.joints(), Names::of(system)),
+        SystemReference::File(_) => (Vec::new(), Names::default()),
     }
 }
 
-fn joint_panels(trajectory: &Trajectory, joint: usize, link: Option<&Link>) -> Vec<Panel> {
+fn joint_panels(
+    trajectory: &Trajectory,
+    joint: usize,
+    row: Option<&JointRow>,
+    name: &str,
+) -> Vec<Panel> {
     let nodes = trajectory.nodes().iter();
     let angles = nodes.clone().map(|n| n.joint_angles_rad[joint]).collect();
     let rates = nodes.map(|n| n.joint_rates_rad_s[joint]).collect();
     let either_way = |bound: Option<f64>| [bound.map(|b| -b), bound];
-    let angle_limits = [link.and_then(|l| l.angle_min_deg), link.and_then(|l| l.angle_max_deg)];
-    let rate_limits = either_way(link.map(|l| l.rate_max_deg_s));
-    let acceleration_limits = either_way(link.map(|l| l.acceleration_max_deg_s2));
-    let number = joint + 1;
+    let angle_limits =
+        [row.and_then(|row| row.angle_min_deg), row.and_then(|row| row.angle_max_deg)];
+    let rate_limits = either_way(row.and_then(|row| row.rate_max_deg_s));
+    let acceleration_limits = either_way(row.and_then(|row| row.acceleration_max_deg_s2));
+    let name = capitalized(name);
     let mut panels = vec![
-        panel(format!("Joint {number} angle [deg]"), angles, angle_limits, LEAST_SPANS[0], false),
-        panel(format!("Joint {number} rate [deg/s]"), rates, rate_limits, LEAST_SPANS[1], false),
+        panel(format!("{name} angle [deg]"), angles, angle_limits, LEAST_SPANS[0], false),
+        panel(format!("{name} rate [deg/s]"), rates, rate_limits, LEAST_SPANS[1], false),
         panel(
-            format!("Joint {number} acceleration [deg/s²]"),
+            format!("{name} acceleration [deg/s²]"),
             accelerations(trajectory, joint),
             acceleration_limits,
             LEAST_SPANS[2],
@@ -62,8 +71,8 @@ fn joint_panels(trajectory: &Trajectory, joint: usize, link: Option<&Link>) -> V
     ];
     if trajectory.has_jerks() {
         let jerks = trajectory.intervals().iter().map(|i| i.joint_jerk_rad_s3(joint)).collect();
-        let limits = either_way(link.and_then(|l| l.jerk_max_deg_s3));
-        let heading = format!("Joint {number} jerk [deg/s³]");
+        let limits = either_way(row.and_then(|row| row.jerk_max_deg_s3));
+        let heading = format!("{name} jerk [deg/s³]");
         panels.push(panel(heading, jerks, limits, LEAST_SPANS[3], true));
     }
     panels
@@ -73,6 +82,11 @@ fn joint_panels(trajectory: &Trajectory, joint: usize, link: Option<&Link>) -> V
 pub(crate) fn accelerations(trajectory: &Trajectory, joint: usize) -> Vec<f64> {
     let values = trajectory.steps() + usize::from(trajectory.has_jerks());
     (0..values).map(|k| trajectory.joint_accelerations_at(k)[joint]).collect()
+}
+
+/// "joint 2" at the head of a panel; names of the user's stay as they are.
+fn capitalized(name: &str) -> String {
+    name.strip_prefix("joint ").map_or_else(|| name.to_owned(), |number| format!("Joint {number}"))
 }
 
 /// A panel of one curve, given in radians, between limits in degrees.
@@ -91,6 +105,8 @@ fn panel(
         }
         _ => String::new(),
     };
+    let is_short = heading.chars().count() + note.chars().count() <= HEAD_CHARACTERS;
+    let note = if is_short { note } else { String::new() };
     let limit = |value| Rule { kind: RuleKind::Limit, value };
     let rules = limits_deg.into_iter().flatten().map(limit).collect();
     let curves = vec![Curve { hold, ..Curve::plain(style::Z, values) }];

@@ -31,18 +31,18 @@ pub fn loads_svg(
         subtitle,
         places: profile.instants().iter().map(|instant| instant.time_s).collect(),
         panel_size: PANEL_SIZE,
-        panels: histories.into_iter().map(panel).collect(),
+        panels: histories.into_iter().map(|history| panel(history, system)).collect(),
         ..Figure::default()
     };
     Some(figure.render())
 }
 
-fn panel(history: LoadHistory) -> Panel {
+fn panel(history: LoadHistory, system: &SystemDescription) -> Panel {
     let peak = history.peak();
     let LoadHistory { load, most, values } = history;
     let (name, axis_label, scale) = match load {
         LimitedLoad::JointTorque(joint) => {
-            (format!("Torque of joint {}", joint + 1), "Torque [N m]", 1.0)
+            (format!("Torque of {}", system.names.joint(joint)), "Torque [N m]", 1.0)
         }
         LimitedLoad::MountForce => ("Force at the mount".to_owned(), "Force [N]", 1.0),
         LimitedLoad::MountMoment => ("Moment at the mount".to_owned(), "Moment [N m]", 1.0),

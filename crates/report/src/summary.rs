@@ -30,7 +30,7 @@ pub fn summary(solution: &Solution, files: &[PathBuf]) -> String {
         line(format_args!(
             "  system   {}, {} joints, {form} form",
             system.name,
-            system.links.len()
+            system.joints().len()
         ));
     }
     line(format_args!(

@@ -1,13 +1,13 @@
 //! What can collide: solids on the arm, and what of the base they keep out of.
 //!
-//! Every solid of the arm is a capsule, and every one moves with a link or with the payload. A link is the
-//! capsule along its straight segment, of radius zero if none is given, unless it has shapes; one without
+//! Every solid of the arm is a capsule, and every one moves with a link, a body or the payload. A body has
+//! the shapes that it is given. A link is the capsule along its straight segment, of radius zero if none is given, unless it has shapes; one without
 //! length and radius collides with nothing.
 
 use std::fmt;
 
 use nalgebra::Vector3;
-use righting_multibody::{Core, Cuboid, InertialFrame, System};
+use righting_multibody::{Core, Cuboid, InertialFrame, Rows, System};
 
 use crate::error::Error;
 use crate::file;
@@ -21,8 +21,10 @@ const EDGE_M: Bounds = Bounds::Between(0.0, 1e8);
 /// A part of the arm that moves as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ArmPart {
-    /// A link, counted from zero.
+    /// A link that a row describes, counted from zero.
     Link(usize),
+    /// A body of a tree, counted from zero.
+    Body(usize),
     /// What the arm holds.
     Payload,
 }
@@ -47,6 +49,7 @@ impl fmt::Display for ArmPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Link(link) => write!(f, "link {}", link + 1),
+            Self::Body(body) => write!(f, "body {}", body + 1),
             Self::Payload => f.write_str("payload"),
         }
     }
@@ -73,7 +76,7 @@ pub struct Solid {
     pub radius_m: f64,
 }
 
-/// Something of the base that the arm keeps out of, in body axes from the base's center of mass.
+/// Something of the base that the arm keeps out of, in body axes from the origin of the body frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeepOut {
     /// A capsule; a sphere where its ends are the same.
@@ -144,6 +147,11 @@ pub(crate) fn solids(
     place: &Location,
 ) -> Result<Vec<Solid>, Error> {
     let mut solids = Vec::new();
+    for (index, body) in system.bodies.iter().flatten().enumerate() {
+        let place = place.key("bodies").index(index);
+        let shapes = body.shapes.as_deref().unwrap_or_default();
+        solids.extend(shaped(shapes, ArmPart::Body(index), index + 1, &place)?);
+    }
     for (link, row) in system.links.iter().enumerate() {
         let place = place.key("links").index(link);
         let part = ArmPart::Link(link);
@@ -163,7 +171,7 @@ pub(crate) fn solids(
     }
     if let Some(payload) = &system.payload {
         let place = place.key("payload");
-        let (part, frame) = (ArmPart::Payload, model.joint_count());
+        let (part, frame) = (ArmPart::Payload, system.links.len());
         let radius_m = checked_radius(payload.radius_m, payload.shapes.as_deref(), &place)?;
         match &payload.shapes {
             Some(shapes) => solids.extend(shaped(shapes, part, frame, &place)?),
@@ -179,16 +187,18 @@ pub(crate) fn solids(
 }
 
 fn row_frame(row: &file::Link, model: &System) -> InertialFrame {
+    let usual = |rows: &Rows| rows.convention.inertial_frame();
     match row.inertial_frame {
         Some(file::InertialFrame::Own) => InertialFrame::Own,
         Some(file::InertialFrame::Previous) => InertialFrame::Previous,
-        None => model.convention().inertial_frame(),
+        None => model.rows().map_or(InertialFrame::Own, usual),
     }
 }
 
 /// Whether a link has a segment at all.
 fn has_length(model: &System, link: usize) -> bool {
-    model.links()[link].length_m() > NO_LENGTH * model.length_m()
+    let length_m = |rows: &Rows| rows.links[link].length_m();
+    model.rows().map_or(0.0, length_m) > NO_LENGTH * model.length_m()
 }
 
 /// A radius that stands beside shapes would mean nothing.

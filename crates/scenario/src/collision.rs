@@ -35,7 +35,7 @@ pub struct Pair {
 /// What a solid of the arm keeps away from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Other {
-    /// The base's center of mass, for the keep-out sphere.
+    /// The origin of the body frame, for the keep-out sphere.
     Center,
     /// Something of the base.
     KeepOut(KeepOut),
@@ -210,8 +210,8 @@ fn arm_pairs(
     clearance_m: f64,
 ) -> impl Iterator<Item = (Pair, f64)> + '_ {
     let place = |solid: &Solid| match solid.piece.part {
-        ArmPart::Link(link) => link,
-        ArmPart::Payload => system.joint_count(),
+        ArmPart::Link(place) | ArmPart::Body(place) => place,
+        ArmPart::Payload => system.model.part_count(),
     };
     system.solids.iter().flat_map(move |inboard| {
         let farther_out = system.solids.iter().filter(move |solid| place(solid) > place(inboard));
@@ -243,6 +243,10 @@ fn farthest_neighbors_m(system: &SystemDescription, pair: &Pair) -> f64 {
 pub(crate) fn is_exempt(system: &SystemDescription, solid: &Solid) -> bool {
     match solid.piece.part {
         ArmPart::Link(link) => system.body_exempt[link],
+        // What no joint moves is a part of the base.
+        ArmPart::Body(body) => {
+            system.body_exempt[body] || system.model.joints_moving(&solid.core).is_empty()
+        }
         ArmPart::Payload => false,
     }
 }

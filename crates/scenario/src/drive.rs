@@ -69,8 +69,13 @@ impl Default for Drive {
 }
 
 impl Drive {
-    /// Checks the drive of a link that was read from `place`.
-    pub(crate) fn from_file(drive: &file::Drive, place: &Location) -> Result<Self, Error> {
+    /// Checks the drive of a joint of the system that was read from `place`.
+    pub(crate) fn of_joint(row: &file::JointRow, place: &Location) -> Result<Self, Error> {
+        let drive_place = row.at(place).key("drive");
+        row.drive.as_ref().map_or(Ok(Self::default()), |drive| Self::from_file(drive, &drive_place))
+    }
+
+    fn from_file(drive: &file::Drive, place: &Location) -> Result<Self, Error> {
         let usual = Self::default();
         let value = |name: &str, value: Option<f64>, allowed: Bounds, usual: f64| match value {
             Some(value) => place.key(name).within(value, allowed),

@@ -18,13 +18,12 @@ pub(crate) fn end_angles(
     system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<Option<f64>>, Error> {
-    let limits = &system.joint_limits;
-    let Some(angles_deg) = angles_deg else { return Ok(vec![None; limits.len()]) };
-    require_one_a_joint(angles_deg, limits, place)?;
-    let given = angles_deg.iter().zip(limits).enumerate();
+    let Some(angles_deg) = angles_deg else { return Ok(vec![None; system.joint_count()]) };
+    require_one_a_joint(angles_deg, system, place)?;
+    let given = angles_deg.iter().enumerate();
     given
-        .map(|(joint, (angle_deg, limits))| {
-            angle_deg.map(|angle_deg| joint_angle(angle_deg, joint, limits, place)).transpose()
+        .map(|(joint, angle_deg)| {
+            angle_deg.map(|angle_deg| joint_angle(angle_deg, joint, system, place)).transpose()
         })
         .collect()
 }
@@ -41,8 +40,7 @@ pub(crate) fn check_end_clearances(
         return Ok(());
     }
     let model = &system.model;
-    let reach_m = model.mount().position_m.norm() + model.length_m();
-    let slack_m = COMPUTED * reach_m;
+    let slack_m = COMPUTED * model.size_m();
     let distances = |free: &[f64]| -> Vec<f64> {
         let angles = end_angles_rad.iter().zip(free).map(|(given, free)| given.unwrap_or(*free));
         let posture = model.kinematics(&angles.collect::<Vec<_>>());
@@ -62,7 +60,7 @@ pub(crate) fn check_end_clearances(
             return Err(place.refuse(
                 format_args!(
                     "an end with {} {} m apart",
-                    clearance.between,
+                    system.names.between(&clearance.between),
                     Number::rounded(distance_m, 6)
                 ),
                 format_args!("at least {} m", Number::rounded(clearance.least_m, 6)),

@@ -4,7 +4,9 @@
 //! file may contain; [`Scenario`](crate::Scenario) is what it means. A *resolved* scenario is one
 //! of these with its system inline and every default filled in: it stands in `solution.json`.
 
+mod bodies;
 mod drive;
+mod joint_row;
 mod pointing;
 mod shapes;
 
@@ -13,7 +15,9 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+pub use bodies::{Body, Joint, JointType};
 pub use drive::Drive;
+pub use joint_row::{JointPlace, JointRow};
 pub use pointing::{DirectionTable, Pointing};
 pub use shapes::{Capsule, Cuboid, KeepOut, Shape, Sphere};
 
@@ -356,7 +360,7 @@ pub enum LinearSolverChoice {
 /// A free-floating base with a chain of revolute joints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object: a system")]
-#[schemars(title = "Righting system")]
+#[schemars(title = "Righting system", transform = require_links_or_bodies)]
 pub struct System {
     /// Name of the system.
     #[schemars(length(min = 1))]
@@ -364,16 +368,23 @@ pub struct System {
     /// Free text for the reader.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
-    /// The spacecraft without its arm; its body frame has its center of mass as origin.
+    /// The spacecraft without its arms.
     pub base: Base,
-    /// Where the arm's frame 0 sits on the base.
-    pub mount: Mount,
+    /// Where the arm's frame 0 sits on the base; goes with `links`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mount: Option<Mount>,
     /// What a row of Denavit–Hartenberg parameters means; `standard` by default.
-    #[serde(default)]
-    pub dh_convention: DhConvention,
-    /// One row a joint, from the base to the tip.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dh_convention: Option<DhConvention>,
+    /// A serial arm: one row a joint, from the base to the tip.
+    #[serde(default, deserialize_with = "some_links", skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(min = 1, max = 32))]
     pub links: Vec<Link>,
+    /// A tree of bodies on joints, in any order, instead of `mount`, `dh_convention`, `links` and `payload`.
+    /// Joint coordinates are in the order of the bodies whose joint moves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub bodies: Option<Vec<Body>>,
     /// Whether an inertia that no rigid body has (of base, links or payload) is replaced by the
     /// nearest one, in the Frobenius norm, that a body can have; false by default: it is refused.
     #[serde(default, skip_serializing_if = "is_false")]
@@ -381,8 +392,9 @@ pub struct System {
     /// A rigid body held at the last link's frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub payload: Option<Payload>,
-    /// Pairs that may touch and cross, each two of `links[i]`, `links[i].shapes[k]`, `payload`,
-    /// `payload.shapes[k]`, `base.keep_out[k]` and `base.keep_out_radius_m` (the sphere), counted from zero.
+    /// Pairs that may touch and cross, each two of `links[i]`, `links[i].shapes[k]`, `bodies[i]`,
+    /// `bodies[i].shapes[k]`, `payload`, `payload.shapes[k]`, `base.keep_out[k]` and
+    /// `base.keep_out_radius_m` (the sphere), counted from zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ignored_pairs: Option<Vec<[String; 2]>>,
 }
@@ -391,6 +403,10 @@ pub struct System {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `mass_kg`")]
 pub struct Base {
+    /// Name by which bodies call it; `base` by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub name: Option<String>,
     /// Mass, kg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass_kg: f64,
@@ -401,7 +417,11 @@ pub struct Base {
     /// Inertia about the center of mass in body axes, kg m²; instead of `cube_side_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
-    /// Radius of the sphere about the center of mass that links keep out of, m. By default there is none
+    /// Center of mass from the origin of the body frame, body axes, m; the origin by default. Not with
+    /// `cube_side_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_of_mass_m: Option<[f64; 3]>,
+    /// Radius of the sphere about the origin of the body frame that links keep out of, m. By default there is none
     /// beside `keep_out`, and without that it is the cube's circumscribed one; `inertia_kg_m2` needs one
     /// of the two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -420,7 +440,7 @@ pub struct Base {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `position_m`")]
 pub struct Mount {
-    /// Origin of frame 0 in body axes, from the base's center of mass, m.
+    /// Origin of frame 0 in body axes, from the origin of the body frame, m.
     pub position_m: [f64; 3],
     /// Orientation of frame 0: unit quaternion w, x, y, z, frame 0 → body; identity by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -464,6 +484,10 @@ pub enum InertialFrame {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object: a link")]
 pub struct Link {
+    /// Name of the link and its joint; none by default, and it goes by its number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub name: Option<String>,
     /// Mass, kg; may be zero.
     #[schemars(range(min = 0))]
     pub mass_kg: f64,
@@ -544,6 +568,22 @@ pub struct Payload {
     pub shapes: Option<Vec<Shape>>,
 }
 
+/// Adds to the schema what the type cannot say: an arm is rows on a mount, or bodies.
+fn require_links_or_bodies(schema: &mut schemars::Schema) {
+    schema.insert(
+        "oneOf".to_owned(),
+        serde_json::json!([
+            { "properties": { "bodies": false }, "required": ["mount", "links"] },
+            {
+                "properties": {
+                    "mount": false, "dh_convention": false, "links": false, "payload": false
+                },
+                "required": ["bodies"]
+            }
+        ]),
+    );
+}
+
 /// Adds to the schema what the type cannot say: a slew has a target, a detumble has none.
 fn require_slew_target(schema: &mut schemars::Schema) {
     schema.insert(
@@ -565,6 +605,15 @@ fn require_slew_target(schema: &mut schemars::Schema) {
             }
         ]),
     );
+}
+
+/// An empty list is not the same as none.
+fn some_links<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Link>, D::Error> {
+    let links = Vec::deserialize(deserializer)?;
+    match links.is_empty() {
+        true => Err(serde::de::Error::custom("an array of 1 to 32 links")),
+        false => Ok(links),
+    }
 }
 
 fn is_false(value: &bool) -> bool {

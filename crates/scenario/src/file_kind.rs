@@ -50,7 +50,7 @@ impl FileKind {
             Some("righting.sweep") => Some(Self::PlannedSweep),
             _ if has("vary") => Some(Self::Sweep),
             _ if has("maneuver") || has("system") => Some(Self::Scenario),
-            _ if has("links") => Some(Self::System),
+            _ if has("links") || has("bodies") => Some(Self::System),
             _ if has("wheels") => Some(Self::Wheels),
             _ => None,
         }
@@ -82,6 +82,7 @@ mod tests {
             (json!({ "system": "arm.json", "maneuver": {} }), Some(FileKind::Scenario)),
             (json!({ "system": {}, "wheels": [] }), Some(FileKind::Scenario)),
             (json!({ "base": {}, "links": [] }), Some(FileKind::System)),
+            (json!({ "base": {}, "bodies": [] }), Some(FileKind::System)),
             (json!({ "scenario": "slew.json", "vary": [] }), Some(FileKind::Sweep)),
             (json!({ "schema": "righting.sweep/1", "sweep": {} }), Some(FileKind::PlannedSweep)),
             (json!({ "wheels": [] }), Some(FileKind::Wheels)),

@@ -33,7 +33,10 @@ impl Named {
         }
         let (part, rest) = match name.strip_prefix("links") {
             Some(rest) => index(rest).map(|(link, rest)| (ArmPart::Link(link), rest))?,
-            None => (ArmPart::Payload, name.strip_prefix("payload")?),
+            None => match name.strip_prefix("bodies") {
+                Some(rest) => index(rest).map(|(body, rest)| (ArmPart::Body(body), rest))?,
+                None => (ArmPart::Payload, name.strip_prefix("payload")?),
+            },
         };
         if rest.is_empty() {
             return Some(Self::Part(part));
@@ -80,6 +83,11 @@ impl Named {
                         within(link, system.links.len(), "links")?;
                         (format!("links[{link}].shapes"), &system.links[link].shapes)
                     }
+                    ArmPart::Body(body) => {
+                        let bodies = system.bodies.as_deref().unwrap_or_default();
+                        within(body, bodies.len(), "bodies")?;
+                        (format!("bodies[{body}].shapes"), &bodies[body].shapes)
+                    }
                     ArmPart::Payload => match &system.payload {
                         Some(payload) => ("payload.shapes".to_owned(), &payload.shapes),
                         None => return Err("this system has no payload".to_owned()),
@@ -100,6 +108,7 @@ impl fmt::Display for Named {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let part = |f: &mut fmt::Formatter<'_>, part: ArmPart| match part {
             ArmPart::Link(link) => write!(f, "links[{link}]"),
+            ArmPart::Body(body) => write!(f, "bodies[{body}]"),
             ArmPart::Payload => f.write_str("payload"),
         };
         match *self {

@@ -1,9 +1,7 @@
 //! Inertias that no rigid body has, and what to take instead.
 
 use nalgebra::Matrix3;
-use righting_multibody::{
-    Base, DhConvention, Link, ModelError, Mount, Part, Payload, System, nearest_inertia,
-};
+use righting_multibody::{Base, JointedBody, ModelError, Part, Rows, System, nearest_inertia};
 
 use crate::error::Error;
 use crate::file;
@@ -14,10 +12,13 @@ use crate::rounding::PRINTED;
 /// What a system is put together from.
 pub(crate) struct Parts {
     pub base: Base,
-    pub mount: Mount,
-    pub convention: DhConvention,
-    pub links: Vec<Link>,
-    pub payload: Option<Payload>,
+    pub arm: Arm,
+}
+
+/// What is on the base.
+pub(crate) enum Arm {
+    Rows(Rows),
+    Bodies(Vec<JointedBody>),
 }
 
 impl Parts {
@@ -67,16 +68,27 @@ impl Parts {
     }
 
     fn model(&self) -> Result<System, ModelError> {
-        let (base, mount) = (self.base.clone(), self.mount.clone());
-        System::new(base, mount, self.convention, self.links.clone(), self.payload.clone())
+        let base = self.base.clone();
+        match &self.arm {
+            Arm::Rows(rows) => {
+                let Rows { mount, convention, links, payload } = rows.clone();
+                System::new(base, mount, convention, links, payload)
+            }
+            Arm::Bodies(bodies) => System::of_bodies(base, bodies.clone()),
+        }
     }
 
     fn inertia(&mut self, part: Part) -> Option<&mut Matrix3<f64>> {
-        match part {
-            Part::Base => Some(&mut self.base.inertia_kg_m2),
-            Part::Mount => None,
-            Part::Link(index) => self.links.get_mut(index)?.inertia_kg_m2.as_mut(),
-            Part::Payload => self.payload.as_mut()?.inertia_kg_m2.as_mut(),
+        match (part, &mut self.arm) {
+            (Part::Base, _) => Some(&mut self.base.inertia_kg_m2),
+            (Part::Link(index), Arm::Rows(rows)) => {
+                rows.links.get_mut(index)?.inertia_kg_m2.as_mut()
+            }
+            (Part::Payload, Arm::Rows(rows)) => rows.payload.as_mut()?.inertia_kg_m2.as_mut(),
+            (Part::Body(index), Arm::Bodies(bodies)) => {
+                bodies.get_mut(index).map(|body| &mut body.body.inertia_kg_m2)
+            }
+            _ => None,
         }
     }
 }
@@ -105,6 +117,11 @@ fn write(part: Part, inertia: &Matrix3<f64>, system: &mut file::System) {
         Part::Base => system.base.inertia_kg_m2 = Some(rows),
         Part::Mount => {}
         Part::Link(index) => system.links[index].inertia_kg_m2 = Some(rows),
+        Part::Body(index) => {
+            if let Some(body) = system.bodies.as_mut().and_then(|bodies| bodies.get_mut(index)) {
+                body.inertia_kg_m2 = Some(rows);
+            }
+        }
         Part::Payload => {
             if let Some(payload) = &mut system.payload {
                 payload.inertia_kg_m2 = Some(rows);

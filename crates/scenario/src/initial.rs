@@ -5,7 +5,6 @@ use righting_multibody::{Quaternion, State};
 
 use crate::error::Error;
 use crate::file;
-use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Location, Number};
 use crate::system_description::{SystemDescription, unit_quaternion};
 
@@ -36,7 +35,6 @@ impl Initial {
         place: &Location,
         notes: &mut Vec<String>,
     ) -> Result<Self, Error> {
-        let limits = &system.joint_limits;
         let attitude = match initial.attitude {
             Some(wxyz) => unit_quaternion(wxyz, &place.key("attitude"), notes)?,
             None => Quaternion::identity(),
@@ -45,8 +43,8 @@ impl Initial {
         let angular_rate_deg_s = rate_place
             .all_within(initial.angular_rate_deg_s.unwrap_or_default(), ANGULAR_RATE_DEG_S)?;
         let omega = Vector3::from(angular_rate_deg_s).map(f64::to_radians);
-        let q = joint_angles(initial, limits, &place.key("joint_angles_deg"))?;
-        let qdot = joint_rates(initial, limits, &place.key("joint_rates_deg_s"))?;
+        let q = joint_angles(initial, system, &place.key("joint_angles_deg"))?;
+        let qdot = joint_rates(initial, system, &place.key("joint_rates_deg_s"))?;
         let model = &system.model;
         let at_rest = Vector3::zeros();
         Ok(Self {
@@ -75,32 +73,31 @@ impl Initial {
 
 fn joint_angles(
     initial: &file::Initial,
-    limits: &[JointLimits],
+    system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<f64>, Error> {
-    require_one_a_joint(&initial.joint_angles_deg, limits, place)?;
-    let checked = initial.joint_angles_deg.iter().zip(limits).enumerate();
-    checked
-        .map(|(joint, (&angle_deg, limits))| joint_angle(angle_deg, joint, limits, place))
-        .collect()
+    require_one_a_joint(&initial.joint_angles_deg, system, place)?;
+    let given = initial.joint_angles_deg.iter().enumerate();
+    given.map(|(joint, &angle_deg)| joint_angle(angle_deg, joint, system, place)).collect()
 }
 
 /// Checks the angle of a joint, counted from zero, that stands in an array at `place`; rad.
 pub(crate) fn joint_angle(
     angle_deg: f64,
     joint: usize,
-    limits: &JointLimits,
+    system: &SystemDescription,
     place: &Location,
 ) -> Result<f64, Error> {
+    let limits = &system.joint_limits[joint];
     let place = place.index(joint);
     let angle_rad = place.within(angle_deg, JOINT_ANGLE_DEG)?.to_radians();
     if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
         let low = Number(degrees(limits.angle_min_rad));
         let high = Number(degrees(limits.angle_max_rad));
-        let number = joint + 1;
+        let name = system.names.joint(joint);
         let allowed = match limits.is_locked() {
-            true => format!("{low}, the angle at which joint {number} is locked"),
-            false => format!("{low} to {high}, the limits of joint {number}"),
+            true => format!("{low}, the angle at which {name} is locked"),
+            false => format!("{low} to {high}, the limits of {name}"),
         };
         return Err(place.refuse(Number(angle_deg), allowed));
     }
@@ -109,26 +106,27 @@ pub(crate) fn joint_angle(
 
 fn joint_rates(
     initial: &file::Initial,
-    limits: &[JointLimits],
+    system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<f64>, Error> {
     let Some(rates_deg_s) = &initial.joint_rates_deg_s else {
-        return Ok(vec![0.0; limits.len()]);
+        return Ok(vec![0.0; system.joint_count()]);
     };
-    require_one_a_joint(rates_deg_s, limits, place)?;
-    let checked = rates_deg_s.iter().zip(limits).enumerate();
+    require_one_a_joint(rates_deg_s, system, place)?;
+    let checked = rates_deg_s.iter().zip(&system.joint_limits).enumerate();
     checked
         .map(|(index, (&rate_deg_s, limits))| {
+            let name = || system.names.joint(index);
             let rate_rad_s = rate_deg_s.to_radians();
             if limits.is_locked() && rate_deg_s != 0.0 {
-                let allowed = format!("0: joint {} is locked", index + 1);
+                let allowed = format!("0: {} is locked", name());
                 return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
             }
             if rate_rad_s.is_nan() || rate_rad_s.abs() > limits.rate_max_rad_s {
                 let allowed = format!(
-                    "at most {} in magnitude, the limit of joint {}",
+                    "at most {} in magnitude, the limit of {}",
                     Number(degrees(limits.rate_max_rad_s)),
-                    index + 1
+                    name()
                 );
                 return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
             }
@@ -139,13 +137,13 @@ fn joint_rates(
 
 pub(crate) fn require_one_a_joint<T>(
     values: &[T],
-    limits: &[JointLimits],
+    system: &SystemDescription,
     place: &Location,
 ) -> Result<(), Error> {
-    if values.len() == limits.len() {
+    if values.len() == system.joint_count() {
         return Ok(());
     }
-    let allowed = format!("an array of {}, one a joint", limits.len());
+    let allowed = format!("an array of {}, one a joint", system.joint_count());
     Err(place.refuse(format!("an array of {}", values.len()), allowed))
 }
 

@@ -32,8 +32,9 @@ pub struct JointLimits {
 }
 
 impl JointLimits {
-    /// Checks the limits of a row that was read from `place`.
-    pub(crate) fn from_file(row: &file::Link, place: &Location) -> Result<Self, Error> {
+    /// Checks the limits of a joint of the system that was read from `place`.
+    pub(crate) fn from_file(row: &file::JointRow, place: &Location) -> Result<Self, Error> {
+        let place = row.at(place);
         let angle = |name: &str, value: Option<f64>, none: f64| match value {
             Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
             None => Ok(none),
@@ -44,9 +45,18 @@ impl JointLimits {
             let allowed = format!("at most angle_max_deg, {}", Number(max_deg));
             return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
         }
-        place.key("rate_max_deg_s").within(row.rate_max_deg_s, RATE_DEG_S)?;
-        let acceleration_place = place.key("acceleration_max_deg_s2");
-        acceleration_place.within(row.acceleration_max_deg_s2, ACCELERATION_DEG_S2)?;
+        let needed = |name: &str, value: Option<f64>, allowed: Bounds, what: &str| {
+            let place = place.key(name);
+            value.map_or_else(|| Err(place.missing(what)), |value| place.within(value, allowed))
+        };
+        let rate_deg_s = row.rate_max_deg_s;
+        needed("rate_max_deg_s", rate_deg_s, RATE_DEG_S, "the largest rate, deg/s")?;
+        needed(
+            "acceleration_max_deg_s2",
+            row.acceleration_max_deg_s2,
+            ACCELERATION_DEG_S2,
+            "the largest acceleration, deg/s²",
+        )?;
         if let Some(jerk_deg_s3) = row.jerk_max_deg_s3 {
             place.key("jerk_max_deg_s3").within(jerk_deg_s3, JERK_DEG_S3)?;
         }
@@ -56,14 +66,17 @@ impl JointLimits {
         Ok(Self::of(row))
     }
 
-    /// The limits of a row that was checked.
-    pub(crate) fn of(row: &file::Link) -> Self {
+    /// The limits of a joint that was checked.
+    pub(crate) fn of(row: &file::JointRow) -> Self {
         let angle_rad = |degrees: Option<f64>, none: f64| degrees.map_or(none, f64::to_radians);
         Self {
             angle_min_rad: angle_rad(row.angle_min_deg, f64::NEG_INFINITY),
             angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
-            rate_max_rad_s: row.rate_max_deg_s.to_radians(),
-            acceleration_max_rad_s2: row.acceleration_max_deg_s2.to_radians(),
+            rate_max_rad_s: row.rate_max_deg_s.unwrap_or(f64::INFINITY).to_radians(),
+            acceleration_max_rad_s2: row
+                .acceleration_max_deg_s2
+                .unwrap_or(f64::INFINITY)
+                .to_radians(),
             jerk_max_rad_s3: row.jerk_max_deg_s3.map_or(f64::INFINITY, f64::to_radians),
             torque_max_n_m: row.torque_max_n_m.unwrap_or(f64::INFINITY),
         }

@@ -23,17 +23,23 @@ pub struct LoadLimits {
 impl LoadLimits {
     /// Checks the limits of a system that was read from `place`.
     pub(crate) fn from_file(system: &file::System, place: &Location) -> Result<Self, Error> {
-        let (base, mount) = (place.key("base"), place.key("mount"));
+        let (base, mount_place) = (place.key("base"), place.key("mount"));
+        let of_mount = |of: fn(&file::Mount) -> Option<f64>| system.mount.as_ref().and_then(of);
         let limit = |place: &Location, name: &str, value: Option<f64>, allowed: Bounds| {
             value.map_or(Ok(f64::INFINITY), |value| place.key(name).within(value, allowed))
         };
         let rate_deg_s = system.base.angular_rate_max_deg_s;
         Ok(Self {
-            mount_force_max_n: limit(&mount, "force_max_n", system.mount.force_max_n, LOAD)?,
+            mount_force_max_n: limit(
+                &mount_place,
+                "force_max_n",
+                of_mount(|mount| mount.force_max_n),
+                LOAD,
+            )?,
             mount_moment_max_n_m: limit(
-                &mount,
+                &mount_place,
                 "moment_max_n_m",
-                system.mount.moment_max_n_m,
+                of_mount(|mount| mount.moment_max_n_m),
                 LOAD,
             )?,
             angular_rate_max_rad_s: limit(&base, "angular_rate_max_deg_s", rate_deg_s, RATE_DEG_S)?

@@ -12,6 +12,7 @@ pub(crate) fn place_of(part: Part, place: &Location) -> Location {
         Part::Base => place.key("base"),
         Part::Mount => place.key("mount"),
         Part::Link(index) => place.key("links").index(index),
+        Part::Body(index) => place.key("bodies").index(index),
         Part::Payload => place.key("payload"),
     }
 }
@@ -66,12 +67,18 @@ pub(crate) fn refuse(error: ModelError, place: &Location, way_out: &str) -> Erro
             at(part).refuse("a mass or length this large", "numbers whose products are finite")
         }
         ModelError::EmptyChain => place.key("links").refuse("[]", "at least one link"),
+        ModelError::NoWayToBase { part } => {
+            at(part).key("parent").refuse("no way to the base", "a body that leads there")
+        }
+        ModelError::NoAxis { part } => {
+            at(part).key("joint").key("axis").refuse("[0, 0, 0]", "a vector that is not zero")
+        }
         ModelError::MasslessBase => place.key("base").key("mass_kg").refuse(0, "more than 0"),
         ModelError::CubeSide { side_m } => {
             place.key("base").key("cube_side_m").refuse(Number(side_m), SIZE_M)
         }
-        ModelError::NotARotation { .. } => {
-            place.key("mount").key("rotation").refuse("a reflection", "a unit quaternion")
+        ModelError::NotARotation { part, .. } => {
+            at(part).key("rotation").refuse("a reflection", "a unit quaternion")
         }
     }
 }

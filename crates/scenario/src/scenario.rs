@@ -91,17 +91,14 @@ impl Scenario {
             resolve_system(&mut scenario.system, file, &place.key("system"), &mut notes)?;
         let initial_place = place.key("initial");
         if let SystemReference::Inline(file) = &mut scenario.system {
-            widen_to_start(
-                &scenario.initial,
-                &mut file.links,
-                &system_place.key("links"),
-                &mut notes,
-            );
-            system.joint_limits = file.links.iter().map(JointLimits::of).collect();
+            widen_to_start(&scenario.initial, file, &system_place, &mut notes);
+            system.joint_limits = file.joints().iter().map(JointLimits::of).collect();
         }
         let initial = Initial::from_file(&scenario.initial, &system, &initial_place, &mut notes)?;
         let rate_place = initial_place.key("angular_rate_deg_s");
-        start_loads::check(&system, &initial, &rate_place, &system_place.key("links"))?;
+        if let SystemReference::Inline(file) = &scenario.system {
+            start_loads::check((&system, file), &initial, &rate_place, &system_place)?;
+        }
         let maneuver_place = place.key("maneuver");
         let maneuver =
             Maneuver::from_file(&scenario.maneuver, &initial, &maneuver_place, &mut notes)?;

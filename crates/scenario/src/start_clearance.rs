@@ -3,6 +3,7 @@
 //! One rule for `body_exempt`: a link that starts inside the keep-out sphere or a shape of the base with its
 //! clearance is refused unless it is exempt, and one that starts outside of all is refused if it is.
 
+use nalgebra::Vector3;
 use righting_multibody::Kinematics;
 
 use crate::bodies::{ArmPart, Piece};
@@ -44,8 +45,9 @@ impl Start<'_> {
         let asked = CollisionModel::new(self.system, clearance_m);
         for (between, between_m) in asked.neighbors_across_links(self.system) {
             notes.push(self.clearance.note(format_args!(
-                "{between} are never farther apart than what is between them, {} m: no clearance is \
+                "{} are never farther apart than what is between them, {} m: no clearance is \
                  kept between them",
+                self.system.names.between(&between),
                 Number::rounded(between_m, 3)
             )));
         }
@@ -55,7 +57,7 @@ impl Start<'_> {
             return Ok(asked);
         }
         let lowered_m = clearance_m - missing_m;
-        let is_rounding = missing_m <= PRINTED * self.reach_m() && lowered_m >= 0.0;
+        let is_rounding = missing_m <= PRINTED * self.system.model.size_m() && lowered_m >= 0.0;
         let lowered = CollisionModel::new(self.system, lowered_m);
         if !is_rounding || !self.is_good(&lowered) {
             return Err(self.refusal(&asked));
@@ -68,15 +70,9 @@ impl Start<'_> {
         Ok(lowered)
     }
 
-    /// How far the arm reaches from the base's center of mass, m: the size of what is rounded.
-    fn reach_m(&self) -> f64 {
-        let model = &self.system.model;
-        model.mount().position_m.norm() + model.length_m()
-    }
-
     /// How far inside a clearance arithmetic alone may put a start, m.
     fn slack_m(&self) -> f64 {
-        COMPUTED * self.reach_m()
+        COMPUTED * self.system.model.size_m()
     }
 
     fn clearances(&self, collision: &CollisionModel) -> Vec<Clearance> {
@@ -93,16 +89,19 @@ impl Start<'_> {
 
     /// An exempt link that starts outside of all that the base keeps out with its clearance, and what of
     /// that is nearest, if there is anything.
-    fn needless_exemption(&self, collision: &CollisionModel) -> Option<(usize, Option<Clearance>)> {
+    fn needless_exemption(
+        &self,
+        collision: &CollisionModel,
+    ) -> Option<(ArmPart, Option<Clearance>)> {
         let posture = self.system.model.kinematics(self.joint_angles_rad);
         self.exempt()
-            .map(|link| (link, nearest(&self.off_base(link, collision), &posture)))
+            .into_iter()
+            .map(|part| (part, nearest(&self.off_base(part, collision), &posture)))
             .find(|(_, nearest)| nearest.is_none_or(|nearest| self.is_kept(&nearest)))
     }
 
-    /// A link and everything that the base keeps out, kept apart or not.
-    fn off_base(&self, link: usize, collision: &CollisionModel) -> Vec<Pair> {
-        let part = ArmPart::Link(link);
+    /// A link or body and everything that the base keeps out, kept apart or not.
+    fn off_base(&self, part: ArmPart, collision: &CollisionModel) -> Vec<Pair> {
         base_pairs(self.system, collision.clearance_m, |solid| solid.piece.part == part)
     }
 
@@ -111,12 +110,23 @@ impl Start<'_> {
         clearance.distance_m > clearance.least_m + self.slack_m()
     }
 
-    /// Exempt links that are solid.
-    fn exempt(&self) -> impl Iterator<Item = usize> {
-        let system = self.system;
-        let is_solid =
-            |link: usize| system.solids.iter().any(|solid| solid.piece.part == ArmPart::Link(link));
-        (0..system.joint_count()).filter(move |&link| system.body_exempt[link] && is_solid(link))
+    /// Exempt links and bodies that are solid.
+    fn exempt(&self) -> Vec<ArmPart> {
+        let is_exempt = |part: &ArmPart| place(*part).is_some_and(|k| self.system.body_exempt[k]);
+        let mut exempt: Vec<ArmPart> =
+            self.system.solids.iter().map(|solid| solid.piece.part).filter(is_exempt).collect();
+        exempt.dedup();
+        exempt
+    }
+
+    /// Where the exemption of a link or body stands.
+    fn exemption(&self, part: ArmPart) -> Location {
+        let place = match part {
+            ArmPart::Link(link) => self.place.key("links").index(link),
+            ArmPart::Body(body) => self.place.key("bodies").index(body),
+            ArmPart::Payload => self.place.key("payload"),
+        };
+        place.key("body_exempt")
     }
 
     /// Whether nothing is too close and nothing exempt without need.
@@ -128,7 +138,8 @@ impl Start<'_> {
     fn refusal(&self, collision: &CollisionModel) -> Error {
         let mut close = self.clearances(collision);
         close.retain(|clearance| clearance.distance_m < clearance.least_m - self.slack_m());
-        let mut found: Vec<String> = close.iter().take(MOST_NAMED).map(distance).collect();
+        let mut found: Vec<String> =
+            close.iter().take(MOST_NAMED).map(|close| self.distance(close)).collect();
         if close.len() > MOST_NAMED {
             found.push(format!("{} more too close", close.len() - MOST_NAMED));
         }
@@ -154,21 +165,21 @@ impl Start<'_> {
 
     /// Fields that make this start a good one, where these are too close. Each was tried.
     fn ways_out(&self, clearance_m: f64, close: &[Clearance]) -> Vec<String> {
-        let mut inside: Vec<usize> = Vec::new();
+        let mut inside: Vec<ArmPart> = Vec::new();
         for clearance in close {
-            if let Some(Piece { part: ArmPart::Link(link), .. }) = clearance.between.off_base()
-                && !inside.contains(&link)
+            if let Some(Piece { part, .. }) = clearance.between.off_base()
+                && place(part).is_some()
+                && !inside.contains(&part)
             {
-                inside.push(link);
+                inside.push(part);
             }
         }
         let mut exempting = self.system.clone();
-        for &link in &inside {
-            exempting.body_exempt[link] = true;
+        for place in inside.iter().filter_map(|&part| place(part)) {
+            exempting.body_exempt[place] = true;
         }
         let exempting = self.of(&exempting);
-        let links = self.place.key("links");
-        let exempt = |&link: &usize| links.index(link).key("body_exempt").path().to_owned();
+        let exempt = |&part: &ArmPart| self.exemption(part).path().to_owned();
         let exempt = inside.iter().map(exempt).collect::<Vec<_>>().join(" and ");
         let lower = |start: &Start<'_>| {
             let asked = CollisionModel::new(start.system, clearance_m);
@@ -222,17 +233,15 @@ impl Start<'_> {
         collision: &CollisionModel,
         notes: &mut Vec<String>,
     ) -> Result<(), Error> {
-        let links = self.place.key("links");
-        if let Some((link, nearest)) = self.needless_exemption(collision) {
-            let place = links.index(link).key("body_exempt");
-            return Err(place.refuse(true, clear_start(link, nearest)));
+        if let Some((part, nearest)) = self.needless_exemption(collision) {
+            return Err(self.exemption(part).refuse(true, self.clear_start(part, nearest)));
         }
-        let exempt: Vec<usize> = self.exempt().collect();
+        let exempt = self.exempt();
         if exempt.is_empty() {
             return Ok(());
         }
         let pairs: Vec<Vec<Pair>> =
-            exempt.iter().map(|&link| self.off_base(link, collision)).collect();
+            exempt.iter().map(|&part| self.off_base(part, collision)).collect();
         let mut can_leave = vec![false; exempt.len()];
         for sample in Halton::new(self.system.joint_count()).take(SAMPLES) {
             let posture = self.system.model.kinematics(&self.system.joint_angles_at(&sample));
@@ -245,14 +254,79 @@ impl Start<'_> {
             true => "the keep-out sphere",
             false => "what the base keeps out",
         };
-        for (link, _) in exempt.into_iter().zip(can_leave).filter(|(_, can_leave)| *can_leave) {
-            notes.push(links.index(link).key("body_exempt").note(format_args!(
-                "link {} starts inside {of_base} and can leave it: it is not kept away from the base \
+        for (part, _) in exempt.into_iter().zip(can_leave).filter(|(_, can_leave)| *can_leave) {
+            notes.push(self.exemption(part).note(format_args!(
+                "{} starts inside {of_base} and can leave it: it is not kept away from the base \
                  anywhere",
-                link + 1
+                self.system.names.part(part)
             )));
         }
         Ok(())
+    }
+
+    /// Why a link or body needs no exemption: what of the base is nearest to it at the start.
+    fn clear_start(&self, part: ArmPart, nearest: Option<Clearance>) -> String {
+        let part = self.system.names.part(part);
+        match nearest {
+            Some(Clearance { between: Between::Body(_), distance_m, least_m }) => format!(
+                "false: {part} starts {} m from the {}, outside the keep-out sphere with its \
+                 clearance, {} m",
+                meters(distance_m),
+                self.center(),
+                meters(least_m)
+            ),
+            Some(clearance) => format!(
+                "false: {}, the nearest of what the base keeps out, at the start, and the clearance is {} m",
+                self.distance(&clearance),
+                meters(clearance.least_m)
+            ),
+            None => {
+                format!("false: the base keeps nothing out, and {part} is free to be anywhere")
+            }
+        }
+    }
+
+    /// Such as "links 1 and 3 0.04 m apart" or "link 2 0.04 m inside base.keep_out[0]".
+    fn distance(&self, clearance: &Clearance) -> String {
+        let Clearance { between, distance_m, .. } = *clearance;
+        let names = &self.system.names;
+        let by_m = meters(distance_m.abs());
+        match (between, distance_m < 0.0) {
+            (Between::Body(piece), _) => {
+                format!(
+                    "{} {} m from the {}",
+                    names.piece(piece),
+                    meters(distance_m),
+                    self.center()
+                )
+            }
+            (Between::KeepOut(piece, k), false) => {
+                format!("{} {by_m} m from base.keep_out[{k}]", names.piece(piece))
+            }
+            (Between::KeepOut(piece, k), true) => {
+                format!("{} {by_m} m inside base.keep_out[{k}]", names.piece(piece))
+            }
+            (Between::Pieces(..), false) => format!("{} {by_m} m apart", names.between(&between)),
+            (Between::Pieces(..), true) => {
+                format!("{} {by_m} m into each other", names.between(&between))
+            }
+        }
+    }
+
+    /// What the keep-out sphere is about.
+    fn center(&self) -> &'static str {
+        match self.system.model.base().center_of_mass_m == Vector3::zeros() {
+            true => "base's center of mass",
+            false => "origin of the body frame",
+        }
+    }
+}
+
+/// The place of a link or body among the exemptions.
+fn place(part: ArmPart) -> Option<usize> {
+    match part {
+        ArmPart::Link(place) | ArmPart::Body(place) => Some(place),
+        ArmPart::Payload => None,
     }
 }
 
@@ -261,42 +335,6 @@ fn nearest(pairs: &[Pair], posture: &Kinematics<f64>) -> Option<Clearance> {
     let room_m = |clearance: &Clearance| clearance.distance_m - clearance.least_m;
     let clearances = pairs.iter().map(|pair| pair.clearance(posture));
     clearances.min_by(|a, b| room_m(a).total_cmp(&room_m(b)))
-}
-
-/// Why a link needs no exemption: what of the base is nearest to it at the start.
-fn clear_start(link: usize, nearest: Option<Clearance>) -> String {
-    let link = link + 1;
-    match nearest {
-        Some(Clearance { between: Between::Body(_), distance_m, least_m }) => format!(
-            "false: link {link} starts {} m from the base's center of mass, outside the keep-out sphere \
-             with its clearance, {} m",
-            meters(distance_m),
-            meters(least_m)
-        ),
-        Some(clearance) => format!(
-            "false: {}, the nearest of what the base keeps out, at the start, and the clearance is {} m",
-            distance(&clearance),
-            meters(clearance.least_m)
-        ),
-        None => {
-            format!("false: the base keeps nothing out, and link {link} is free to be anywhere")
-        }
-    }
-}
-
-/// Such as "links 1 and 3 0.04 m apart" or "link 2 0.04 m inside base.keep_out[0]".
-fn distance(clearance: &Clearance) -> String {
-    let Clearance { between, distance_m, .. } = *clearance;
-    let by_m = meters(distance_m.abs());
-    match (between, distance_m < 0.0) {
-        (Between::Body(piece), _) => {
-            format!("{piece} {} m from the base's center of mass", meters(distance_m))
-        }
-        (Between::KeepOut(piece, k), false) => format!("{piece} {by_m} m from base.keep_out[{k}]"),
-        (Between::KeepOut(piece, k), true) => format!("{piece} {by_m} m inside base.keep_out[{k}]"),
-        (Between::Pieces(..), false) => format!("{between} {by_m} m apart"),
-        (Between::Pieces(..), true) => format!("{between} {by_m} m into each other"),
-    }
 }
 
 /// A length as a message gives it.

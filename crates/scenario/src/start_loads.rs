@@ -3,6 +3,7 @@
 use righting_multibody::System;
 
 use crate::error::Error;
+use crate::file;
 use crate::initial::Initial;
 use crate::json::{Location, Number};
 use crate::rounding::PRINTED;
@@ -11,10 +12,10 @@ use crate::system_description::SystemDescription;
 /// Refuses a base that turns too fast already, and a torque limit that no joint accelerations within their
 /// limits keep at the start.
 pub(crate) fn check(
-    system: &SystemDescription,
+    (system, file): (&SystemDescription, &file::System),
     initial: &Initial,
     rate_place: &Location,
-    links: &Location,
+    place: &Location,
 ) -> Result<(), Error> {
     let rate_rad_s = initial.angular_rate_rad_s.norm();
     let most_rad_s = system.load_limits.angular_rate_max_rad_s;
@@ -27,19 +28,20 @@ pub(crate) fn check(
             ),
         ));
     }
-    for (joint, limits) in system.joint_limits.iter().enumerate() {
+    for (joint, row) in file.joints().iter().enumerate() {
+        let limits = &system.joint_limits[joint];
         if limits.torque_max_n_m.is_infinite() {
             continue;
         }
         let needed_n_m = least_torque_n_m(system, initial, joint);
         if needed_n_m > limits.torque_max_n_m {
-            return Err(links.index(joint).key("torque_max_n_m").refuse(
+            return Err(row.at(place).key("torque_max_n_m").refuse(
                 Number(limits.torque_max_n_m),
                 format!(
-                    "at least {}: joint {} needs as much at the start, whatever the joints' \
+                    "at least {}: {} needs as much at the start, whatever the joints' \
                      accelerations",
                     Number::rounded(needed_n_m, 4),
-                    joint + 1
+                    system.names.joint(joint)
                 ),
             ));
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use righting_multibody as multibody;
 use righting_multibody::{Quaternion, System};
 
@@ -11,35 +11,39 @@ use crate::drive::Drive;
 use crate::error::Error;
 use crate::file;
 use crate::ignored_pairs::{Named, ignored_pairs};
-use crate::inertias::Parts;
+use crate::inertias::{Arm, Parts};
 use crate::joint_limits::JointLimits;
+use crate::jointed_bodies::jointed_bodies;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
 use crate::load_limits::LoadLimits;
+use crate::names::Names;
 use crate::rounding::COMPUTED;
+use crate::rows::{doubt_about_frames, rows};
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
 
 // As wide as systems in millimeters or kilometers, grams or kilotons need.
 pub(crate) const MASS_KG: Bounds = Bounds::Between(0.0, 1e15);
-const BODY_MASS_KG: Bounds = Bounds::Above(0.0, 1e15);
+pub(crate) const BODY_MASS_KG: Bounds = Bounds::Above(0.0, 1e15);
 pub(crate) const LENGTH_M: Bounds = Bounds::Between(-1e8, 1e8);
 pub(crate) const SIZE_M: Bounds = Bounds::Above(0.0, 1e8);
 pub(crate) const RADIUS_M: Bounds = Bounds::Between(0.0, 1e8);
 const INERTIA_KG_M2: Bounds = Bounds::Between(-1e30, 1e30);
-const DH_ANGLE_DEG: Bounds = Bounds::Between(-360.0, 360.0);
 
 /// How far the norm of a quaternion may be from 1 by rounding: four printed digits of each entry.
 const UNIT_NORM: f64 = 1e-4;
 
-/// A free-floating base with an arm: masses and geometry, joint limits and keep-out sphere.
+/// A free-floating base with its arms: masses and geometry, joint limits and keep-out sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemDescription {
     /// Name of the system.
     pub name: String,
+    /// Names of its parts and joints.
+    pub names: Names,
     /// Masses and geometry.
     pub model: System,
-    /// Radius of the sphere about the base's center of mass that the arm keeps out of, m, if there is one.
+    /// Radius of the sphere about the origin of the body frame that the arm keeps out of, m, if there is one.
     pub keep_out_radius_m: Option<f64>,
     /// What else of the base it keeps out of.
     pub keep_out: Vec<KeepOut>,
@@ -53,7 +57,7 @@ pub struct SystemDescription {
     pub drives: Vec<Drive>,
     /// What the mount bears, and how fast the base may turn.
     pub load_limits: LoadLimits,
-    /// Whether a link may be inside what the base keeps out, such as a part of the mount; one a link.
+    /// Whether a link or body may be inside what the base keeps out, such as a part of the mount; one each.
     pub body_exempt: Vec<bool>,
 }
 
@@ -66,7 +70,7 @@ impl SystemDescription {
         Self::from_file(&mut read_system(file)?, &Location::root(file), &mut Vec::new())
     }
 
-    /// Number of joints j, which is also the number of links.
+    /// Number of joints j.
     pub fn joint_count(&self) -> usize {
         self.joint_limits.len()
     }
@@ -101,37 +105,24 @@ impl SystemDescription {
         let base_place = place.key("base");
         let (base, keep_out_radius_m) = base(&system.base, &base_place)?;
         let keep_out = keep_out(&system.base, &base_place)?;
-        let mount = mount(&system.mount, &place.key("mount"), notes)?;
-        let convention = match system.dh_convention {
-            file::DhConvention::Standard => multibody::DhConvention::Standard,
-            file::DhConvention::Modified => multibody::DhConvention::Modified,
+        check_kind_of_arm(system, place)?;
+        let names = Names::new(system, place)?;
+        let arm = match &system.bodies {
+            Some(bodies) => Arm::Bodies(jointed_bodies(bodies, &system.base, place, notes)?),
+            None => Arm::Rows(rows(system, place, notes)?),
         };
-        let links_place = place.key("links");
-        if !(1..=MAX_JOINTS).contains(&system.links.len()) {
-            let allowed = format!("an array of 1 to {MAX_JOINTS} links");
-            return Err(links_place.refuse(format!("{} links", system.links.len()), allowed));
-        }
-        let mut links = Vec::new();
-        let mut joint_limits = Vec::new();
-        let mut drives = Vec::new();
-        for (index, row) in system.links.iter().enumerate() {
-            let place = links_place.index(index);
-            links.push(link(row, &place)?);
-            joint_limits.push(JointLimits::from_file(row, &place)?);
-            let drive = row.drive.as_ref();
-            drives.push(drive.map_or(Ok(Drive::default()), |drive| {
-                Drive::from_file(drive, &place.key("drive"))
-            })?);
-        }
-        let payload = match &system.payload {
-            Some(payload) => Some(self::payload(payload, &place.key("payload"))?),
-            None => None,
-        };
-        let parts = Parts { base, mount, convention, links, payload };
-        let model = parts.into_model(system, place, notes)?;
-        notes.extend(doubt_about_frames(system, &links_place));
+        let joints = system.joints();
+        let joint_limits = joints.iter().map(|row| JointLimits::from_file(row, place));
+        let joint_limits = joint_limits.collect::<Result<_, _>>()?;
+        let drives = joints.iter().map(|row| Drive::of_joint(row, place));
+        let drives = drives.collect::<Result<_, _>>()?;
+        let model = Parts { base, arm }.into_model(system, place, notes)?;
+        notes.extend(doubt_about_frames(system, &place.key("links")));
+        let exempt_links = system.links.iter().map(|link| link.body_exempt);
+        let exempt_bodies = system.bodies.iter().flatten().map(|body| body.body_exempt);
         Ok(Self {
             name: system.name.clone(),
+            names,
             keep_out_radius_m,
             keep_out,
             solids: solids(system, &model, place)?,
@@ -140,29 +131,30 @@ impl SystemDescription {
             joint_limits,
             drives,
             load_limits: LoadLimits::from_file(system, place)?,
-            body_exempt: system.links.iter().map(|link| link.body_exempt).collect(),
+            body_exempt: exempt_links.chain(exempt_bodies).collect(),
         })
     }
 }
 
-/// A remark on a file that looks as if its inertials were in other frames than they are taken in:
-/// those of a Craig table are in the links' own frames, and nobody means to fix link 1 to the base.
-fn doubt_about_frames(system: &file::System, links: &Location) -> Option<String> {
-    let is_modified = system.dh_convention == file::DhConvention::Modified;
-    let is_said = system.links.iter().any(|link| link.inertial_frame.is_some());
-    let is_given = system
-        .links
-        .iter()
-        .any(|link| link.center_of_mass_m.is_some() || link.inertia_kg_m2.is_some());
-    let first_kg = system.links.first().map_or(0.0, |link| link.mass_kg);
-    (is_modified && is_given && !is_said && first_kg > 0.0).then(|| {
-        links.index(0).key("inertial_frame").note(format_args!(
-            "missing, so the {} kg of row 1 are fixed to the base, and the inertials of every row i are \
-             taken in frame i-1; those of Craig tables and ROS files are in frame i: if these are, set \
-             inertial_frame \"own\" on every link (\"previous\" says that they are meant as taken)",
-            Number(first_kg)
-        ))
-    })
+/// An arm is described by rows or by bodies.
+fn check_kind_of_arm(system: &file::System, place: &Location) -> Result<(), Error> {
+    let has_links = !system.links.is_empty();
+    if system.bodies.is_none() && system.mount.is_none() && !has_links {
+        return Err(place.key("links").missing("the rows of an arm on a mount, or bodies instead"));
+    }
+    let rows_alone = [
+        ("mount", system.mount.is_some()),
+        ("dh_convention", system.dh_convention.is_some()),
+        ("links", has_links),
+        ("payload", system.payload.is_some()),
+    ];
+    match rows_alone.iter().find(|(_, is_given)| *is_given && system.bodies.is_some()) {
+        Some((name, _)) => {
+            let found = format!("both {name} and bodies");
+            Err(place.key("bodies").refuse(found, "either bodies, or links on a mount"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Reads a system file without checking its values.
@@ -205,10 +197,15 @@ fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, Option<
         .map(|radius_m| radius_place.within(radius_m, RADIUS_M))
         .transpose()?;
     let has_shapes = base.keep_out.is_some();
+    let center_place = place.key("center_of_mass_m");
+    let center_of_mass_m = vector(base.center_of_mass_m.unwrap_or_default(), &center_place)?;
     match (base.cube_side_m, &base.inertia_kg_m2) {
         (Some(_), Some(_)) => {
             let place = place.key("inertia_kg_m2");
             Err(place.refuse("both cube_side_m and inertia_kg_m2", "one of them"))
+        }
+        (Some(_), None) if base.center_of_mass_m.is_some() => {
+            Err(center_place.refuse("both cube_side_m and center_of_mass_m", "one of them"))
         }
         (Some(side_m), None) => {
             let side_m = cube_place.within(side_m, SIZE_M)?;
@@ -224,69 +221,18 @@ fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, Option<
                     "the radius of the keep-out sphere, which goes with inertia_kg_m2, or keep_out",
                 ));
             }
-            Ok((multibody::Base { mass_kg, inertia_kg_m2 }, radius_m))
+            Ok((multibody::Base { mass_kg, center_of_mass_m, inertia_kg_m2 }, radius_m))
         }
         (None, None) => Err(cube_place
             .missing("the side of a cube, or inertia_kg_m2 with keep_out_radius_m or keep_out")),
     }
 }
 
-fn mount(
-    mount: &file::Mount,
-    place: &Location,
-    notes: &mut Vec<String>,
-) -> Result<multibody::Mount, Error> {
-    let position_m = vector(mount.position_m, &place.key("position_m"))?;
-    let rotation = match mount.rotation {
-        Some(wxyz) => {
-            let rotation = unit_quaternion(wxyz, &place.key("rotation"), notes)?;
-            let rotation = rotation.rotation_matrix();
-            Rotation3::from_matrix_unchecked(rotation)
-        }
-        None => Rotation3::identity(),
-    };
-    Ok(multibody::Mount { position_m, rotation })
-}
-
-fn link(row: &file::Link, place: &Location) -> Result<multibody::Link, Error> {
-    let angle = |name: &str, value: f64| place.key(name).within(value, DH_ANGLE_DEG);
-    let length = |name: &str, value: f64| place.key(name).within(value, LENGTH_M);
-    Ok(multibody::Link {
-        mass_kg: place.key("mass_kg").within(row.mass_kg, MASS_KG)?,
-        a_m: length("a_m", row.a_m)?,
-        alpha_rad: angle("alpha_deg", row.alpha_deg)?.to_radians(),
-        d_m: length("d_m", row.d_m)?,
-        theta_rad: angle("theta_deg", row.theta_deg)?.to_radians(),
-        inertial_frame: row.inertial_frame.map(|frame| match frame {
-            file::InertialFrame::Own => multibody::InertialFrame::Own,
-            file::InertialFrame::Previous => multibody::InertialFrame::Previous,
-        }),
-        center_of_mass_m: row
-            .center_of_mass_m
-            .map(|center| vector(center, &place.key("center_of_mass_m")))
-            .transpose()?,
-        inertia_kg_m2: row
-            .inertia_kg_m2
-            .map(|inertia| matrix(&inertia, &place.key("inertia_kg_m2")))
-            .transpose()?,
-    })
-}
-
-fn payload(payload: &file::Payload, place: &Location) -> Result<multibody::Payload, Error> {
-    Ok(multibody::Payload {
-        mass_kg: place.key("mass_kg").within(payload.mass_kg, BODY_MASS_KG)?,
-        inertia_kg_m2: payload
-            .inertia_kg_m2
-            .map(|inertia| matrix(&inertia, &place.key("inertia_kg_m2")))
-            .transpose()?,
-    })
-}
-
-fn vector(values: [f64; 3], place: &Location) -> Result<Vector3<f64>, Error> {
+pub(crate) fn vector(values: [f64; 3], place: &Location) -> Result<Vector3<f64>, Error> {
     place.all_within(values, LENGTH_M).map(Vector3::from)
 }
 
-fn matrix(rows: &[[f64; 3]; 3], place: &Location) -> Result<Matrix3<f64>, Error> {
+pub(crate) fn matrix(rows: &[[f64; 3]; 3], place: &Location) -> Result<Matrix3<f64>, Error> {
     for (index, row) in rows.iter().enumerate() {
         place.index(index).all_within(*row, INERTIA_KG_M2)?;
     }

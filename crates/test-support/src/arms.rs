@@ -17,7 +17,7 @@ pub fn rotation() -> impl Strategy<Value = [f64; 4]> {
 }
 
 /// The inertia of a body with these second moments about axes turned by a rotation vector.
-fn inertia(size: f64) -> impl Strategy<Value = [[f64; 3]; 3]> {
+pub(crate) fn inertia(size: f64) -> impl Strategy<Value = [[f64; 3]; 3]> {
     let axes = prop::array::uniform3(-3.0..3.0_f64);
     (prop::array::uniform3(0.05..1.0_f64), axes).prop_map(move |([x, y, z], axes)| {
         let turn = Rotation3::new(Vector3::from(axes));
@@ -29,7 +29,7 @@ fn inertia(size: f64) -> impl Strategy<Value = [[f64; 3]; 3]> {
 }
 
 /// Any angle in degrees, right angles as often as on real arms.
-fn angle_deg() -> impl Strategy<Value = f64> {
+pub(crate) fn angle_deg() -> impl Strategy<Value = f64> {
     prop_oneof![
         2 => Just(0.0),
         3 => (-2..=2_i32).prop_map(|quarters| 90.0 * f64::from(quarters)),
@@ -38,7 +38,7 @@ fn angle_deg() -> impl Strategy<Value = f64> {
 }
 
 /// None, almost none, little, or some.
-fn length_m() -> impl Strategy<Value = f64> {
+pub(crate) fn length_m() -> impl Strategy<Value = f64> {
     prop_oneof![4 => Just(0.0), 1 => -1e-12..1e-12_f64, 1 => -0.02..0.02_f64, 8 => -1.0..1.0_f64]
 }
 
@@ -50,6 +50,7 @@ fn link() -> impl Strategy<Value = file::Link> {
     (mass_kg, length_m(), angle_deg(), length_m(), angle_deg(), center, own, frame).prop_map(
         |(mass_kg, a_m, alpha_deg, d_m, theta_deg, center_of_mass_m, inertia_kg_m2, frame)| {
             file::Link {
+                name: None,
                 mass_kg,
                 a_m,
                 alpha_deg,
@@ -75,13 +76,17 @@ fn link() -> impl Strategy<Value = file::Link> {
     )
 }
 
-fn base() -> impl Strategy<Value = file::Base> {
+pub(crate) fn base() -> impl Strategy<Value = file::Base> {
     let cube = (0.4..1.0_f64).prop_map(|side_m| (Some(side_m), None));
-    let any = inertia(10.0).prop_map(|inertia| (None, Some(inertia)));
-    prop_oneof![cube, any].prop_map(|(cube_side_m, inertia_kg_m2)| file::Base {
+    let any = (inertia(10.0), prop::option::of(prop::array::uniform3(-0.3..0.3_f64)));
+    let any = any.prop_map(|(inertia, center_m)| (None, Some(inertia), center_m));
+    let cube = cube.prop_map(|(cube_side_m, inertia)| (cube_side_m, inertia, None));
+    prop_oneof![cube, any].prop_map(|(cube_side_m, inertia_kg_m2, center_of_mass_m)| file::Base {
+        name: None,
         mass_kg: 20.0,
         cube_side_m,
         inertia_kg_m2,
+        center_of_mass_m,
         keep_out_radius_m: Some(0.0),
         angular_rate_max_deg_s: None,
         keep_out: None,
@@ -101,42 +106,48 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
         prop_oneof![Just(file::DhConvention::Standard), Just(file::DhConvention::Modified)];
     (base(), mount, convention, vec(link(), joints), prop::option::of(payload())).prop_map(
         |(base, (position_m, rotation), dh_convention, links, payload)| {
-            let joint_angles_deg = vec![0.0; links.len()];
             let system = file::System {
                 name: "arm".to_owned(),
                 description: None,
                 base,
-                mount: file::Mount {
+                mount: Some(file::Mount {
                     position_m,
                     rotation,
                     force_max_n: None,
                     moment_max_n_m: None,
-                },
-                dh_convention,
+                }),
+                dh_convention: Some(dh_convention),
                 links,
+                bodies: None,
                 project_inertias: false,
                 payload,
                 ignored_pairs: None,
             };
-            let scenario = file::Scenario {
-                name: "arm at rest".to_owned(),
-                description: None,
-                system: file::SystemReference::Inline(Box::new(system)),
-                initial: file::Initial { joint_angles_deg, ..file::Initial::default() },
-                maneuver: file::Maneuver {
-                    kind: file::ManeuverType::Slew,
-                    axis: Some([0.0, 0.0, 1.0]),
-                    angle_deg: Some(10.0),
-                    target_attitude: None,
-                },
-                horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
-                weights: file::Weights::default(),
-                end: None,
-                pointing: Vec::new(),
-                collision: file::Collision { clearance_m: Some(0.0) },
-                solver: file::Solver::default(),
-            };
-            Scenario::from_file(scenario, Path::new("arm.json")).expect("a sound arm")
+            at_rest(system)
         },
     )
+}
+
+/// A scenario with this system at rest, all joints at zero.
+pub(crate) fn at_rest(system: file::System) -> Scenario {
+    let joint_angles_deg = vec![0.0; system.joints().len()];
+    let scenario = file::Scenario {
+        name: "arm at rest".to_owned(),
+        description: None,
+        system: file::SystemReference::Inline(Box::new(system)),
+        initial: file::Initial { joint_angles_deg, ..file::Initial::default() },
+        maneuver: file::Maneuver {
+            kind: file::ManeuverType::Slew,
+            axis: Some([0.0, 0.0, 1.0]),
+            angle_deg: Some(10.0),
+            target_attitude: None,
+        },
+        horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
+        weights: file::Weights::default(),
+        end: None,
+        pointing: Vec::new(),
+        collision: file::Collision { clearance_m: Some(0.0) },
+        solver: file::Solver::default(),
+    };
+    Scenario::from_file(scenario, Path::new("arm.json")).expect("a sound arm")
 }

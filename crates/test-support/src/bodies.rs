@@ -55,6 +55,10 @@ impl Bodies {
             link.radius_m = radius_m.filter(|_| shapes.is_none());
             link.shapes.clone_from(shapes);
         }
+        for (body, (_, shapes)) in system.bodies.iter_mut().flatten().zip(self.links.iter().cycle())
+        {
+            body.shapes.clone_from(shapes);
+        }
         if let Some(payload) = &mut system.payload {
             payload.radius_m = self.payload;
         }

@@ -8,6 +8,7 @@ pub mod bodies;
 pub mod by_hand;
 pub mod json_schema;
 pub mod thin_links;
+pub mod trees;
 pub mod units;
 
 use std::f64::consts::TAU;

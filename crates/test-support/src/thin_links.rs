@@ -9,6 +9,7 @@ use crate::{shipped, varied};
 pub fn thin_link(mass_kg: f64, a_m: f64, alpha_deg: f64, limits: [f64; 2]) -> Link {
     let [rate_max_deg_s, acceleration_max_deg_s2] = limits;
     Link {
+        name: None,
         mass_kg,
         a_m,
         alpha_deg,

@@ -21,9 +21,11 @@ impl Units {
             rows.iter_mut().flatten().flatten().for_each(|entry| *entry *= inertia);
         };
         let torque = inertia / time.powi(2);
-        let mount = &mut system.mount;
-        mount.force_max_n = mount.force_max_n.map(|force_n| force_n * torque / length);
-        mount.moment_max_n_m = mount.moment_max_n_m.map(|moment_n_m| moment_n_m * torque);
+        if let Some(mount) = &mut system.mount {
+            mount.position_m = mount.position_m.map(|entry| entry * length);
+            mount.force_max_n = mount.force_max_n.map(|force_n| force_n * torque / length);
+            mount.moment_max_n_m = mount.moment_max_n_m.map(|moment_n_m| moment_n_m * torque);
+        }
         let base = &mut system.base;
         base.angular_rate_max_deg_s = base.angular_rate_max_deg_s.map(|rate| rate / time);
         base.mass_kg *= mass;
@@ -38,7 +40,26 @@ impl Units {
                 cuboid.size_m = cuboid.size_m.map(|entry| entry * length);
             }
         }
-        system.mount.position_m = system.mount.position_m.map(|entry| entry * length);
+        base.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
+        for body in system.bodies.iter_mut().flatten() {
+            body.mass_kg *= mass;
+            body.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
+            scale_inertia(&mut body.inertia_kg_m2);
+            body.shapes.iter_mut().flatten().for_each(|shape| self.shape(shape));
+            let joint = &mut body.joint;
+            joint.position_m.iter_mut().flatten().for_each(|entry| *entry *= length);
+            joint.rate_max_deg_s = joint.rate_max_deg_s.map(|rate| rate / time);
+            joint.acceleration_max_deg_s2 =
+                joint.acceleration_max_deg_s2.map(|acceleration| acceleration / time.powi(2));
+            joint.jerk_max_deg_s3 =
+                joint.jerk_max_deg_s3.map(|jerk_deg_s3| jerk_deg_s3 / time.powi(3));
+            joint.torque_max_n_m = joint.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
+            if let Some(drive) = &mut joint.drive {
+                drive.viscous_friction_n_m_s =
+                    drive.viscous_friction_n_m_s.map(|friction| friction * inertia / time);
+                drive.rotor_inertia_kg_m2 = drive.rotor_inertia_kg_m2.map(|rotor| rotor * inertia);
+            }
+        }
         for link in &mut system.links {
             link.mass_kg *= mass;
             link.a_m *= length;

@@ -20,9 +20,9 @@ pub(super) struct Solid {
 /// The segment inside a capsule, and what it moves with.
 #[derive(Clone, Debug)]
 pub(super) enum Axis {
-    /// Link i, from origin i−1 to origin i; counted from zero.
+    /// Link i of rows, from origin i−1 to origin i; counted from zero.
     Link(usize),
-    /// Two points in the axes of a frame, 0 to j, m.
+    /// Two points in the axes of a frame, m.
     InFrame(usize, [Vector3<f64>; 2]),
 }
 
@@ -45,7 +45,7 @@ impl Solid {
 /// Something of the base.
 #[derive(Clone, Debug)]
 pub(super) enum Fixed {
-    /// All points within a radius of a segment; about the base's center of mass for the keep-out sphere.
+    /// All points within a radius of a segment; about the origin of the body frame for the keep-out sphere.
     Capsule(Segment, f64),
     Cuboid(Cuboid),
 }
@@ -65,17 +65,21 @@ impl Fixed {
     }
 }
 
-/// The solids of the arm, from the base outward: links along their segments, if they have length or
+/// The solids of the arm: the shapes of bodies, or, from the base outward, links along their segments, if they have length or
 /// thickness, or the shapes that are given instead, in the frames that the masses move with.
 pub(super) fn solids(system: &file::System) -> Vec<Solid> {
     let lengths_m = system.links.iter().map(|link| link.a_m.hypot(link.d_m));
     let rounding_m = ROUNDING * lengths_m.sum::<f64>();
     let mut solids = Vec::new();
+    for (index, body) in system.bodies.iter().flatten().enumerate() {
+        let shapes = body.shapes.as_deref().unwrap_or_default();
+        solids.extend(shaped(ArmPart::Body(index), index + 1, shapes));
+    }
     for (index, link) in system.links.iter().enumerate() {
         let part = ArmPart::Link(index);
         let is_previous = match (link.inertial_frame, system.dh_convention) {
             (Some(frame), _) => frame == file::InertialFrame::Previous,
-            (None, convention) => convention == file::DhConvention::Modified,
+            (None, convention) => convention == Some(file::DhConvention::Modified),
         };
         let frame = if is_previous { index } else { index + 1 };
         let radius_m = link.radius_m.unwrap_or(0.0);

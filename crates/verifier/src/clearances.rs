@@ -8,7 +8,8 @@ use righting_scenario::ignored_pairs::Named;
 
 use crate::bodies::{Fixed, ROUNDING, Solid, solids};
 use crate::ledger::{Subject, Worst};
-use crate::model::{Cuboid, Pose, Segment};
+use crate::lineage::Lineage;
+use crate::model::{Cuboid, Model, Pose, Segment};
 
 /// Which solids of the arm keep how far from the base and from each other.
 ///
@@ -60,7 +61,7 @@ enum Shape {
 }
 
 impl Clearances {
-    pub fn new(system: &file::System, clearance_m: f64) -> Self {
+    pub fn new(system: &file::System, model: &Model, clearance_m: f64) -> Self {
         let solids = solids(system);
         let named: Vec<[Named; 2]> = system
             .ignored_pairs
@@ -69,7 +70,10 @@ impl Clearances {
             .filter_map(|[a, b]| Some([Named::parse(a)?, Named::parse(b)?]))
             .collect();
         let mut pairs = base_pairs(system, &solids, clearance_m);
-        pairs.extend(arm_pairs(system, &solids, clearance_m));
+        match &system.bodies {
+            Some(_) => pairs.extend(pairs_of_bodies(system, model, &solids, clearance_m)),
+            None => pairs.extend(pairs_of_links(system, &solids, clearance_m)),
+        }
         pairs.retain(|pair| !named.iter().any(|names| pair.between.is_named(names)));
         Self { solids, pairs }
     }
@@ -159,9 +163,15 @@ impl Situation {
 /// Pairs with the base: the keep-out sphere's first, then those of one shape after the other.
 fn base_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<Pair> {
     let base = &system.base;
+    let lineage = Lineage::new(system);
     let kept: Vec<usize> = (0..solids.len())
         .filter(|&solid| match solids[solid].piece.part {
             ArmPart::Link(link) => !system.links[link].body_exempt,
+            // What no joint moves is a part of the base.
+            ArmPart::Body(body) => {
+                let is_exempt = system.bodies.as_ref().is_some_and(|all| all[body].body_exempt);
+                !is_exempt && !lineage.moving(body).is_empty()
+            }
             ArmPart::Payload => true,
         })
         .collect();
@@ -197,12 +207,12 @@ fn base_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<
 }
 
 /// Pairs of solids of the arm that do not share a joint.
-fn arm_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<Pair> {
+fn pairs_of_links(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<Pair> {
     let lengths_m: Vec<f64> = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
     let rounding_m = ROUNDING * lengths_m.iter().sum::<f64>();
     let place = |solid: &Solid| match solid.piece.part {
         ArmPart::Link(link) => link,
-        ArmPart::Payload => lengths_m.len(),
+        ArmPart::Body(_) | ArmPart::Payload => lengths_m.len(),
     };
     let mut pairs = Vec::new();
     for (inner, inboard) in solids.iter().enumerate() {
@@ -220,6 +230,51 @@ fn arm_pairs(system: &file::System, solids: &[Solid], clearance_m: f64) -> Vec<P
                     outer,
                     inner: Inner::Solid(inner),
                     covered_m,
+                    least_m: clearance_m,
+                });
+            }
+        }
+    }
+    pairs
+}
+
+/// Pairs of solids of bodies that do not share a joint: where the way from one to the other has a length
+/// over the joints between them. Seen from the body that two neighbouring joints are on, their distance is
+/// the same in every posture.
+fn pairs_of_bodies(
+    system: &file::System,
+    model: &Model,
+    solids: &[Solid],
+    clearance_m: f64,
+) -> Vec<Pair> {
+    let lineage = Lineage::new(system);
+    let mut frames = vec![Pose::identity(); model.frame_count()];
+    model.frames(&vec![0.0; model.joint_count()], &mut frames);
+    let rounding_m = ROUNDING * frames.iter().map(|frame| frame.origin.norm()).sum::<f64>();
+    let distance_m = |a: usize, b: usize| (frames[a + 1].origin - frames[b + 1].origin).norm();
+    let body = |solid: &Solid| match solid.piece.part {
+        ArmPart::Body(body) | ArmPart::Link(body) => body,
+        ArmPart::Payload => 0,
+    };
+    let mut pairs = Vec::new();
+    for (inner, one) in solids.iter().enumerate() {
+        for (outer, other) in solids.iter().enumerate() {
+            if body(one) >= body(other) {
+                continue;
+            }
+            let [a, b] = [one, other].map(|solid| lineage.moving(body(solid)));
+            let shared = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
+            let mut way: Vec<usize> = a[shared..].to_vec();
+            way.reverse();
+            way.extend(&b[shared..]);
+            let between_m: f64 =
+                way.windows(2).map(|joints| distance_m(joints[0], joints[1])).sum();
+            if between_m > rounding_m {
+                pairs.push(Pair {
+                    between: Between::Pieces(one.piece, other.piece),
+                    outer,
+                    inner: Inner::Solid(inner),
+                    covered_m: one.radius_m + other.radius_m,
                     least_m: clearance_m,
                 });
             }

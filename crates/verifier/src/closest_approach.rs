@@ -61,7 +61,7 @@ impl<'a> ClosestApproach<'a> {
     /// Before the first interval, which begins with `start`.
     pub fn new(asked: &'a Requirements, start: &State<'_>) -> Self {
         let joints = asked.model.joint_count();
-        let mut frames = vec![Pose::identity(); joints + 1];
+        let mut frames = vec![Pose::identity(); asked.model.frame_count()];
         asked.model.frames(start.joint_angles, &mut frames);
         Self {
             asked,

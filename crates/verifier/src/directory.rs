@@ -49,7 +49,8 @@ pub fn verify_directory(folder: &Path) -> Result<Verified, Error> {
         Scenario::from_file_at(solution.scenario.clone(), &solution_file, &place.key("scenario"))?;
     let scenario = with_chosen_duration(asked, solution.duration_s, &place.key("duration_s"))?;
     let trajectory = Trajectory::read_csv(&folder.join(TRAJECTORY_FILE))?;
-    let mut ledger = Ledger { report: verify(&scenario, &trajectory) };
+    let report = verify(&scenario, &trajectory);
+    let mut ledger = Ledger::new(scenario.resolved_system(), report);
     check_claims(&solution, &scenario, &trajectory, &mut ledger);
     let verification = ledger.finish();
     let solution = Solution { limits: verification.limits(), verification, ..solution };

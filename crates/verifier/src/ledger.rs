@@ -1,18 +1,19 @@
 //! Checks as they are made: of each, the worst place only.
 
-use std::fmt;
-
 use righting_results::verification::{Check, Sense, Verification};
 use righting_scenario::collision::Between;
+use righting_scenario::{Names, file};
 
 /// How much worse than the worst place so far another has to be to be worth finding, as a share of the
 /// tolerance, where the check fails anyway.
 const RESOLUTION: f64 = 0.1;
 
 /// The checks made so far.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Ledger {
     pub report: Verification,
+    /// What joints and bodies are called.
+    names: Names,
 }
 
 /// One check, at the place where it is closest to failing so far.
@@ -34,18 +35,18 @@ struct Place {
     time_s: Option<f64>,
 }
 
-/// What a check is about, counted from zero; displayed counted from one.
+/// What a check is about, counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
     Joint(usize),
     Clearance(Between),
 }
 
-impl fmt::Display for Subject {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Subject {
+    fn called(&self, names: &Names) -> String {
         match self {
-            Self::Joint(joint) => write!(f, "joint {}", joint + 1),
-            Self::Clearance(between) => between.fmt(f),
+            Self::Joint(joint) => names.joint(*joint),
+            Self::Clearance(between) => names.between(between),
         }
     }
 }
@@ -121,10 +122,16 @@ impl Worst {
 }
 
 impl Ledger {
+    /// What has been checked so far of a system.
+    pub fn new(system: &file::System, report: Verification) -> Self {
+        Self { report, names: Names::of(system) }
+    }
+
     /// Enters a check, unless there was nothing to look at. Returns whether it passed.
     pub fn add(&mut self, worst: Worst) -> bool {
         let subject = worst.place.and_then(|place| place.subject);
-        self.enter(worst, subject.map(|subject| subject.to_string()))
+        let subject = subject.map(|subject| subject.called(&self.names));
+        self.enter(worst, subject)
     }
 
     /// As [`add`](Self::add), about something that has a name.

@@ -70,6 +70,7 @@ mod jerk;
 mod joints;
 mod ledger;
 mod limits;
+mod lineage;
 mod loads;
 pub mod model;
 mod motion_bound;

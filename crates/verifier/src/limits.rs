@@ -113,7 +113,7 @@ impl<'a> Limits<'a> {
             rate: Worst::of_limit(rate, "rad/s", tolerances.rate_rad_s),
             body: Worst::of_limit(body, "m", tolerances.distance_m),
             links: Worst::of_limit(links, "m", tolerances.distance_m),
-            frames: vec![Pose::identity(); asked.model.joint_count() + 1],
+            frames: vec![Pose::identity(); asked.model.frame_count()],
         }
     }
 

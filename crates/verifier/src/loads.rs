@@ -41,8 +41,8 @@ struct DriveTorque {
 }
 
 impl DriveTorque {
-    fn new(link: &file::Link) -> Self {
-        let drive = link.drive.as_ref();
+    fn new(joint: &file::JointRow) -> Self {
+        let drive = joint.drive.as_ref();
         let of = |value: fn(&file::Drive) -> Option<f64>| drive.and_then(value).unwrap_or(0.0);
         let ratio = drive.and_then(|drive| drive.gear_ratio).unwrap_or(1.0);
         // The rotor's kinetic energy J (n q̇)² / 2 is that of an inertia n² J at the joint.
@@ -56,10 +56,10 @@ impl DriveTorque {
 impl LoadLimits {
     pub fn new(system: &file::System) -> Self {
         Self {
-            torques_n_m: system.links.iter().map(|link| link.torque_max_n_m).collect(),
-            drives: system.links.iter().map(DriveTorque::new).collect(),
-            mount_force_n: system.mount.force_max_n,
-            mount_moment_n_m: system.mount.moment_max_n_m,
+            torques_n_m: system.joints().iter().map(|joint| joint.torque_max_n_m).collect(),
+            drives: system.joints().iter().map(DriveTorque::new).collect(),
+            mount_force_n: system.mount.as_ref().and_then(|mount| mount.force_max_n),
+            mount_moment_n_m: system.mount.as_ref().and_then(|mount| mount.moment_max_n_m),
             base_rate_rad_s: system.base.angular_rate_max_deg_s.map(f64::to_radians),
         }
     }

@@ -60,12 +60,16 @@ mod pose;
 mod row;
 mod segment;
 mod state;
+mod step;
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use righting_scenario::file;
 
 use body::Body;
 use row::{Convention, Row};
+use step::Step;
+
+use crate::lineage::Lineage;
 
 pub use cuboid::Cuboid;
 pub use dynamics::{BaseAcceleration, MountLoad};
@@ -74,19 +78,19 @@ pub use pose::Pose;
 pub use segment::Segment;
 pub use state::State;
 
-/// A free-floating base with an arm.
+/// A free-floating base with its arms.
 ///
-/// Frame 0 is the mount and moves with the base; frame i follows from frame i−1 by row i of the
-/// Denavit–Hartenberg table and moves with joint i.
+/// Frame 0 moves with the base. Of an arm in rows it is the mount; frame i follows from frame i−1 by row i of
+/// the Denavit–Hartenberg table and moves with joint i. Of bodies it is the body frame; frame i is that of
+/// body i and follows from the frame of the body that carries it.
 #[derive(Clone, Debug)]
 pub struct Model {
-    convention: Convention,
-    /// Origin of frame 0 in body axes, from the base's center of mass, m.
-    mount_position: Vector3<f64>,
-    /// Turns vectors of frame 0 into body axes.
-    mount_rotation: Matrix3<f64>,
-    rows: Vec<Row>,
-    /// Every body with mass, the base first, in the order of the frames that they move with.
+    /// Frame 0 in body axes, from the origin of the body frame, m.
+    first: Pose,
+    /// To every other frame, after the one to the frame that carries it.
+    steps: Vec<Step>,
+    joint_count: usize,
+    /// Every body with mass, the base first.
     bodies: Vec<Body>,
     total_mass: f64,
 }
@@ -94,52 +98,85 @@ pub struct Model {
 impl Model {
     /// The model of a system that was checked when its scenario was read.
     pub fn new(system: &file::System) -> Self {
-        let convention = match system.dh_convention {
-            file::DhConvention::Standard => Convention::Distal,
-            file::DhConvention::Modified => Convention::Proximal,
-        };
-        let [w, x, y, z] = system.mount.rotation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
-        let mount = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
-        let rows: Vec<Row> = system.links.iter().map(Row::new).collect();
         let mut bodies = vec![Body::base(&system.base)];
-        for (index, (link, row)) in system.links.iter().zip(&rows).enumerate() {
-            bodies.push(Body::link(link, row, convention, index));
-        }
-        if let Some(payload) = &system.payload {
-            bodies.push(Body::payload(payload, rows.len()));
-        }
+        let (first, steps) = match &system.bodies {
+            Some(listed) => {
+                bodies.extend(listed.iter().enumerate().map(|(k, body)| Body::listed(body, k + 1)));
+                (Pose::identity(), steps_of_bodies(system, listed))
+            }
+            None => {
+                let convention = match system.dh_convention.unwrap_or_default() {
+                    file::DhConvention::Standard => Convention::Distal,
+                    file::DhConvention::Modified => Convention::Proximal,
+                };
+                let rows: Vec<Row> = system.links.iter().map(Row::new).collect();
+                for (index, (link, row)) in system.links.iter().zip(&rows).enumerate() {
+                    bodies.push(Body::link(link, row, convention, index));
+                }
+                if let Some(payload) = &system.payload {
+                    bodies.push(Body::payload(payload, rows.len()));
+                }
+                let steps = rows.into_iter().enumerate();
+                let steps = steps.map(|(index, row)| Step::of_row(row, convention, index));
+                (system.mount.as_ref().map_or_else(Pose::identity, mount), steps.collect())
+            }
+        };
         bodies.retain(|body| body.mass > 0.0);
         Self {
-            convention,
-            mount_position: Vector3::from(system.mount.position_m),
-            mount_rotation: mount.to_rotation_matrix().into_inner(),
+            first,
+            joint_count: steps.iter().filter(|step| step.joint.is_some()).count(),
+            steps,
             total_mass: bodies.iter().map(|body| body.mass).sum(),
-            rows,
             bodies,
         }
     }
 
     /// Number of joints j.
     pub fn joint_count(&self) -> usize {
-        self.rows.len()
+        self.joint_count
     }
 
-    /// Mass of base, links and payload, kg.
+    /// Number of frames.
+    pub fn frame_count(&self) -> usize {
+        self.steps.len() + 1
+    }
+
+    /// Mass of the whole system, kg.
     pub fn total_mass(&self) -> f64 {
         self.total_mass
     }
 
-    /// Writes where frames 0 to j are at joint angles `q` (j, rad), in body axes from the base's center of
-    /// mass (m), into `frames` (j + 1). Link i is the straight segment from origin i−1 to origin i.
+    /// Writes where all frames are at joint angles `q` (j, rad), in body axes from the origin of the body
+    /// frame (m), into `frames`. Link i is the straight segment from origin i−1 to origin i.
     ///
     /// # Panics
     /// A slice has another length.
     pub fn frames(&self, q: &[f64], frames: &mut [Pose]) {
-        assert_eq!((q.len(), frames.len()), (self.joint_count(), self.joint_count() + 1));
-        frames[0] = Pose { rotation: self.mount_rotation, origin: self.mount_position };
-        for (i, (row, angle)) in self.rows.iter().zip(q).enumerate() {
-            let (rotation, arm) = row.follow(self.convention, &frames[i].rotation, *angle);
-            frames[i + 1] = Pose { rotation, origin: frames[i].origin + arm };
+        assert_eq!((q.len(), frames.len()), (self.joint_count(), self.frame_count()));
+        frames[0] = self.first;
+        for step in &self.steps {
+            let before = frames[step.parent];
+            let angle = step.joint.map_or(0.0, |joint| q[joint]);
+            let (rotation, arm) = step.follow(&before.rotation, angle);
+            frames[step.frame] = Pose { rotation, origin: before.origin + arm };
         }
     }
+}
+
+fn mount(mount: &file::Mount) -> Pose {
+    let [w, x, y, z] = mount.rotation.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    Pose {
+        rotation: rotation.to_rotation_matrix().into_inner(),
+        origin: Vector3::from(mount.position_m),
+    }
+}
+
+fn steps_of_bodies(system: &file::System, bodies: &[file::Body]) -> Vec<Step> {
+    let lineage = Lineage::new(system);
+    let step = |body: usize| {
+        let parent = lineage.parent(body).map_or(0, |parent| parent + 1);
+        Step::of_body(&bodies[body].joint, body + 1, parent, lineage.joint(body))
+    };
+    lineage.outward().into_iter().map(step).collect()
 }

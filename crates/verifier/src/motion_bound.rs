@@ -10,40 +10,64 @@
 //! and |p − o_j| ≤ R_j, the lengths of the links from joint j to the end of that one, or to the frame that p
 //! moves with and from there to p. So |ṗ| is at most Σ R_j |q̇_j|, and |p̈| at most Σ R_j |q̈_j| + (Σ |q̇_j|) (Σ R_j |q̇_j|).
 
+use nalgebra::Vector3;
+use righting_scenario::bodies::ArmPart;
 use righting_scenario::file;
 
 use crate::bodies::{Axis, Solid};
+use crate::lineage::Lineage;
 
 /// The R_j of every solid.
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
-    /// Of each solid: one a joint that moves it, in order, m.
-    of_solids: Vec<Vec<f64>>,
+    /// Of each solid: the joints that move it, from the base outward, and the R_j of each, m.
+    of_solids: Vec<Vec<(usize, f64)>>,
 }
 
 impl Reach {
     pub fn new(system: &file::System, solids: &[Solid]) -> Self {
-        let lengths_m: Vec<f64> =
-            system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
-        // The axis of joint i goes through the inboard end of link i, which it moves, or, by Craig's
-        // convention, through its outboard end, and the first link that it moves is the next.
-        let first_moved = match system.dh_convention {
-            file::DhConvention::Standard => 0,
-            file::DhConvention::Modified => 1,
-        };
-        let of_solid = |solid: &Solid| {
-            let (joints, last, beyond_m) = match &solid.axis {
-                Axis::Link(link) => (link + 1 - first_moved, link + 1, 0.0),
-                Axis::InFrame(frame, [start, end]) => {
-                    (*frame, *frame, start.norm().max(end.norm()))
-                }
-            };
-            let to_frame =
-                |joint: usize| lengths_m.get(joint + first_moved..last).unwrap_or_default();
-            (0..joints).map(|joint| to_frame(joint).iter().sum::<f64>() + beyond_m).collect()
+        let of_solid = |solid: &Solid| match solid.piece.part {
+            ArmPart::Body(body) => of_body(system, body, &solid.axis),
+            ArmPart::Link(_) | ArmPart::Payload => of_row(system, &solid.axis),
         };
         Self { of_solids: solids.iter().map(of_solid).collect() }
     }
+}
+
+fn of_row(system: &file::System, axis: &Axis) -> Vec<(usize, f64)> {
+    let lengths_m: Vec<f64> = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).collect();
+    // The axis of joint i goes through the inboard end of link i, which it moves, or, by Craig's
+    // convention, through its outboard end, and the first link that it moves is the next.
+    let first_moved = match system.dh_convention.unwrap_or_default() {
+        file::DhConvention::Standard => 0,
+        file::DhConvention::Modified => 1,
+    };
+    let (joints, last, beyond_m) = match axis {
+        Axis::Link(link) => (link + 1 - first_moved, link + 1, 0.0),
+        Axis::InFrame(frame, ends) => (*frame, *frame, farthest_m(ends)),
+    };
+    let to_frame = |joint: usize| lengths_m.get(joint + first_moved..last).unwrap_or_default();
+    (0..joints).map(|joint| (joint, to_frame(joint).iter().sum::<f64>() + beyond_m)).collect()
+}
+
+fn of_body(system: &file::System, body: usize, axis: &Axis) -> Vec<(usize, f64)> {
+    let bodies = system.bodies.as_deref().unwrap_or_default();
+    let lineage = Lineage::new(system);
+    let mut beyond_m = match axis {
+        Axis::InFrame(_, ends) => farthest_m(ends),
+        Axis::Link(_) => 0.0,
+    };
+    let mut reach = Vec::new();
+    for body in lineage.from_base(body).into_iter().rev() {
+        reach.extend(lineage.joint(body).map(|joint| (joint, beyond_m)));
+        beyond_m += Vector3::from(bodies[body].joint.position_m.unwrap_or_default()).norm();
+    }
+    reach.reverse();
+    reach
+}
+
+fn farthest_m([start, end]: &[Vector3<f64>; 2]) -> f64 {
+    start.norm().max(end.norm())
 }
 
 /// The joints' motion over a stretch of time.
@@ -57,12 +81,14 @@ pub(super) struct Stretch<'a> {
 }
 
 impl Stretch<'_> {
-    /// The most that a point of a solid moves as seen from another one farther in, or from the base, m.
+    /// The most that a point of a solid moves as seen from another one, or from the base, m: seen from what
+    /// carries both, the sum of what the two move.
     pub fn travel_m(&self, solid: usize, seen_from: Option<usize>) -> f64 {
-        let reach = &self.reach.of_solids;
-        let shared = seen_from.map_or(0, |other| reach[other].len());
-        let joints = self.rates.iter().zip(&reach[solid]).skip(shared);
-        self.duration_s * joints.map(|(rate, reach_m)| rate * reach_m).sum::<f64>()
+        let solid = &self.reach.of_solids[solid];
+        let other = seen_from.map_or(&[][..], |other| &self.reach.of_solids[other]);
+        let shared = solid.iter().zip(other).take_while(|(a, b)| a.0 == b.0).count();
+        let apart = solid[shared..].iter().chain(&other[shared..]);
+        self.duration_s * apart.map(|(joint, reach_m)| self.rates[*joint] * reach_m).sum::<f64>()
     }
 
     /// The most that a point of a solid is off the straight way between where it is at the beginning and
@@ -71,9 +97,9 @@ impl Stretch<'_> {
     pub fn bend_m(&self, solid: usize) -> f64 {
         let reach = &self.reach.of_solids[solid];
         let weighted = |values: &[f64]| -> f64 {
-            values.iter().zip(reach).map(|(value, reach_m)| value * reach_m).sum()
+            reach.iter().map(|(joint, reach_m)| values[*joint] * reach_m).sum()
         };
-        let turning: f64 = self.rates.iter().take(reach.len()).sum();
+        let turning: f64 = reach.iter().map(|(joint, _)| self.rates[*joint]).sum();
         let acceleration = weighted(self.accelerations) + turning * weighted(self.rates);
         acceleration * self.duration_s.powi(2) / 8.0
     }

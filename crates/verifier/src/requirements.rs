@@ -6,6 +6,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::clearances::Clearances;
 use crate::goal::Goal;
+use crate::lineage::Lineage;
 use crate::loads::LoadLimits;
 use crate::model::{BaseAcceleration, Model, Motion, State};
 use crate::motion_bound::Reach;
@@ -18,7 +19,7 @@ use crate::tolerances::{Measures, Tolerances};
 pub(super) struct Requirements {
     pub model: Model,
     pub horizon: Horizon,
-    /// State vector at the start: the base's center of mass at the origin, the system's at rest.
+    /// State vector at the start: the body frame's origin at the inertial one, the system's at rest.
     pub start: Vec<f64>,
     pub goal: Goal,
     pub end_posture: EndPosture,
@@ -54,7 +55,7 @@ impl Requirements {
         let model = Model::new(system);
         let start = start(&model, &file.initial);
         let clearance_m = file.collision.clearance_m.unwrap_or(0.0);
-        let clearances = Clearances::new(system, clearance_m);
+        let clearances = Clearances::new(system, &model, clearance_m);
         let duration_s = scenario.horizon().duration_s;
         Self {
             tolerances: Tolerances::new(
@@ -68,7 +69,7 @@ impl Requirements {
             goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
             end_posture: EndPosture::new(file.end.as_ref()),
             horizon: scenario.horizon(),
-            joint_limits: system.links.iter().map(JointLimits::new).collect(),
+            joint_limits: system.joints().iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),
             cones: file.pointing.iter().map(Cone::new).collect(),
             reach: Reach::new(system, &clearances.solids),
@@ -79,21 +80,42 @@ impl Requirements {
     }
 }
 
-/// The length of the arm stretched out, from the base's center of mass, m.
+/// The length of the arm stretched out, from the origin of the body frame, m; of bodies, to the joint or
+/// center of mass that can be farthest.
 fn size_m(system: &file::System) -> f64 {
-    let links: f64 = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).sum();
-    let size_m = Vector3::from(system.mount.position_m).norm() + links;
+    let size_m = match &system.bodies {
+        None => {
+            let links: f64 = system.links.iter().map(|link| link.a_m.hypot(link.d_m)).sum();
+            let mount =
+                system.mount.as_ref().map_or(Vector3::zeros(), |mount| mount.position_m.into());
+            mount.norm() + links
+        }
+        Some(bodies) => {
+            let length_m = |v: Option<[f64; 3]>| Vector3::from(v.unwrap_or_default()).norm();
+            let lineage = Lineage::new(system);
+            let reach_m = |body: usize| -> f64 {
+                let way = lineage.from_base(body).into_iter();
+                way.map(|body| length_m(bodies[body].joint.position_m)).sum::<f64>()
+                    + length_m(bodies[body].center_of_mass_m)
+            };
+            (0..bodies.len()).map(reach_m).fold(0.0, f64::max)
+        }
+    };
     if size_m > 0.0 { size_m } else { 1.0 }
 }
 
 impl JointLimits {
-    fn new(link: &file::Link) -> Self {
+    fn new(joint: &file::JointRow) -> Self {
+        let unlimited = f64::INFINITY;
         Self {
-            angle_min_rad: link.angle_min_deg.map(f64::to_radians),
-            angle_max_rad: link.angle_max_deg.map(f64::to_radians),
-            rate_max_rad_s: link.rate_max_deg_s.to_radians(),
-            acceleration_max_rad_s2: link.acceleration_max_deg_s2.to_radians(),
-            jerk_max_rad_s3: link.jerk_max_deg_s3.map(f64::to_radians),
+            angle_min_rad: joint.angle_min_deg.map(f64::to_radians),
+            angle_max_rad: joint.angle_max_deg.map(f64::to_radians),
+            rate_max_rad_s: joint.rate_max_deg_s.unwrap_or(unlimited).to_radians(),
+            acceleration_max_rad_s2: joint
+                .acceleration_max_deg_s2
+                .unwrap_or(unlimited)
+                .to_radians(),
+            jerk_max_rad_s3: joint.jerk_max_deg_s3.map(f64::to_radians),
         }
     }
 }

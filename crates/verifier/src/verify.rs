@@ -39,7 +39,7 @@ const NO_TORQUE: f64 = 1e-3;
 /// Never fails: a trajectory that does not even fit its scenario is one that did not pass.
 pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     let asked = Requirements::new(scenario);
-    let mut ledger = Ledger::default();
+    let mut ledger = Ledger::new(scenario.resolved_system(), Verification::default());
     if !shape_fits(&asked, trajectory, &mut ledger) {
         return ledger.finish();
     }
@@ -65,7 +65,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
 /// that does not fit the scenario's arm and grid does not pass.
 pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verification) {
     let asked = Requirements::new(scenario);
-    let mut ledger = Ledger::default();
+    let mut ledger = Ledger::new(scenario.resolved_system(), Verification::default());
     if !shape_fits(&asked, plan, &mut ledger) {
         return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
     }

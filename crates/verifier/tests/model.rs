@@ -10,6 +10,7 @@ use righting_multibody as multibody;
 use righting_scenario::{Scenario, file};
 use righting_test_support::arms::{self, arm};
 use righting_test_support::bodies::bodies;
+use righting_test_support::trees::tree;
 use righting_test_support::{motion, scenarios};
 use righting_verifier::model::{BaseAcceleration, Cuboid, Model, Motion, Pose, Segment, State};
 use righting_verifier::verify;
@@ -69,7 +70,7 @@ impl Sample {
 }
 
 fn moving_arm() -> impl Strategy<Value = (Scenario, Sample)> {
-    arm(1..=8).prop_flat_map(|scenario| {
+    prop_oneof![arm(1..=8).boxed(), tree(1..=8).boxed()].prop_flat_map(|scenario| {
         let joints = scenario.system().joint_count();
         (Just(scenario), sample(joints))
     })
@@ -124,8 +125,10 @@ proptest! {
         let system = scenario.system();
         let q = &sample.joints[0];
         let posture = system.model.kinematics(q);
-        let mut frames = vec![Pose::identity(); q.len() + 1];
-        Model::new(scenario.resolved_system()).frames(q, &mut frames);
+        let model = Model::new(scenario.resolved_system());
+        let mut frames = vec![Pose::identity(); model.frame_count()];
+        model.frames(q, &mut frames);
+        prop_assert_eq!(frames.len(), posture.frames.len());
         for (Pose { rotation, origin }, frame) in frames.iter().zip(&posture.frames) {
             assert_near("origin", origin.as_slice(), frame.origin.as_slice(), 1e-13, 1.0);
             let axes = frame.rotation();

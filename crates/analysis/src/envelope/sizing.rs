@@ -1,7 +1,7 @@
 //! How large an arm must be to do what an array of wheels does, and the reverse.
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use righting_multibody::{Link, System};
+use righting_multibody::System;
 use righting_scenario::system_description::SystemDescription;
 use serde::Serialize;
 
@@ -95,17 +95,7 @@ fn scaled(model: &System, change: Change, factor: f64) -> Option<System> {
         Change::Length => (factor, 1.0),
         Change::Mass => (1.0, factor),
     };
-    let link = |link: &Link| Link {
-        mass_kg: link.mass_kg * mass,
-        a_m: link.a_m * length,
-        d_m: link.d_m * length,
-        center_of_mass_m: link.center_of_mass_m.map(|center| center * length),
-        inertia_kg_m2: link.inertia_kg_m2.map(|inertia| inertia * (mass * length * length)),
-        ..link.clone()
-    };
-    let links = model.links().iter().map(link).collect();
-    let (base, mount) = (model.base().clone(), model.mount().clone());
-    System::new(base, mount, model.convention(), links, model.payload().cloned()).ok()
+    model.with_links_scaled(length, mass).ok()
 }
 
 #[cfg(test)]

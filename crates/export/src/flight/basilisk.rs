@@ -10,7 +10,7 @@ use righting_scenario::Scenario;
 use super::Flight;
 use super::python::{Constants, row};
 use crate::ExportError;
-use crate::arm::Arm;
+use crate::arm::{Arm, Hinge};
 use crate::xml::number;
 
 /// The least principal moment of a body relative to its mass and the square of the system's size. A
@@ -29,7 +29,8 @@ const LEAST: f64 = 1e-15;
 /// least is 1e-15 of mass times the square of the system's size.
 ///
 /// # Errors
-/// [`ExportError::Motion`] for a motion that cannot be followed.
+/// [`ExportError::Motion`] for a motion that cannot be followed, [`ExportError::Branches`] for joints that
+/// branch.
 pub fn basilisk(
     scenario: &Scenario,
     solution: &Solution,
@@ -37,6 +38,10 @@ pub fn basilisk(
     maneuver: &str,
 ) -> Result<Vec<u8>, ExportError> {
     let flight = Flight::new(scenario, trajectory)?;
+    let follows = |(index, hinge): (usize, &Hinge)| hinge.parent == index.checked_sub(1);
+    if !flight.arm.hinges.iter().enumerate().all(follows) {
+        return Err(ExportError::Branches);
+    }
     let mut constants = Constants::new(&flight, solution, trajectory, maneuver);
     let (base, bodies) = turning_bodies(&flight.arm);
     let attitudes = trajectory.nodes().iter().flat_map(|node| node.attitude);

@@ -4,7 +4,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual;
-use righting_multibody::{DhConvention, InertialFrame, Link, System};
+use righting_multibody::{
+    BodyJoint, DhConvention, InertialFrame, JointedBody, Link, Placement, Rows, System,
+};
 use righting_scalar::Scalar;
 
 /// A rigid body seen from the body frame.
@@ -42,6 +44,14 @@ impl<T: Scalar> Pose<T> {
         self.then(Matrix3::new(l, o, o, o, c, -s, o, s, c), Vector3::zeros())
     }
 
+    /// Rodrigues' formula: 1 + sin a [e]× + (1 − cos a) [e]×².
+    fn about(&self, axis: &Vector3<f64>, angle: T) -> Self {
+        let across = skew(&axis.normalize()).map(T::from);
+        let (sin, cos) = angle.sin_cos();
+        let rotation = Matrix3::identity() + across * sin + across * across * (T::from(1.0) - cos);
+        self.then(rotation, Vector3::zeros())
+    }
+
     fn moved(&self, x: f64, z: f64) -> Self {
         let position = Vector3::new(T::from(x), T::from(0.0), T::from(z));
         self.then(Matrix3::identity(), position)
@@ -72,34 +82,84 @@ fn rod(mass: f64, s: &Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * s.norm_squared() - s * s.transpose()) * (mass / 12.0)
 }
 
-/// Rotations and origins of the Denavit-Hartenberg frames 0…j.
+/// Rotations and origins of the Denavit-Hartenberg frames 0…j, or of the body frame and all bodies'.
 pub fn frames<T: Scalar>(system: &System, q: &[T]) -> Vec<(Matrix3<T>, Vector3<T>)> {
     poses(system, q).into_iter().map(|pose| (pose.rotation, pose.position)).collect()
 }
 
 fn poses<T: Scalar>(system: &System, q: &[T]) -> Vec<Pose<T>> {
+    match (system.rows(), system.bodies()) {
+        (Some(rows), _) => poses_of_rows(rows, q),
+        (None, bodies) => poses_of_bodies(bodies.unwrap(), q),
+    }
+}
+
+fn poses_of_rows<T: Scalar>(rows: &Rows, q: &[T]) -> Vec<Pose<T>> {
     let mut poses = vec![Pose {
-        rotation: system.mount().rotation.matrix().map(T::from),
-        position: system.mount().position_m.map(T::from),
+        rotation: rows.mount.rotation.matrix().map(T::from),
+        position: rows.mount.position_m.map(T::from),
     }];
-    for (link, angle) in system.links().iter().zip(q) {
-        let next = step(&poses[poses.len() - 1], link, *angle, system.convention());
+    for (link, angle) in rows.links.iter().zip(q) {
+        let next = step(&poses[poses.len() - 1], link, *angle, rows.convention);
         poses.push(next);
     }
     poses
 }
 
-/// Base, links and payload.
+fn poses_of_bodies<T: Scalar>(bodies: &[JointedBody], q: &[T]) -> Vec<Pose<T>> {
+    let base = Pose { rotation: Matrix3::identity(), position: Vector3::zeros() };
+    let mut angles = q.iter();
+    let angles: Vec<Option<&T>> =
+        bodies.iter().map(|body| body.is_movable().then(|| angles.next().unwrap())).collect();
+    let mut poses: Vec<Option<Pose<T>>> = vec![None; bodies.len()];
+    // As often as it takes: a body may stand before the one that carries it.
+    while poses.iter().any(Option::is_none) {
+        for (index, body) in bodies.iter().enumerate() {
+            let parent = match body.parent {
+                Some(parent) => poses[parent].clone(),
+                None => Some(base.clone()),
+            };
+            let Some(parent) = parent else { continue };
+            let Placement { position_m, rotation } = &body.placement;
+            let joint = parent.then(rotation.map(T::from), position_m.map(T::from));
+            poses[index] = Some(match (&body.joint, angles[index]) {
+                (BodyJoint::Revolute(axis), Some(angle)) => joint.about(axis, *angle),
+                _ => joint,
+            });
+        }
+    }
+    std::iter::once(base).chain(poses.into_iter().flatten()).collect()
+}
+
+/// Base, links and payload, or base and bodies.
 pub fn bodies<T: Scalar>(system: &System, q: &[T]) -> Vec<Body<T>> {
     let poses = poses(system, q);
-    let mut bodies = vec![Body {
+    let base = Body {
         mass: system.base().mass_kg,
-        center: Vector3::zeros(),
+        center: system.base().center_of_mass_m.map(T::from),
         rotation: Matrix3::identity(),
         inertia: system.base().inertia_kg_m2,
-    }];
-    for (i, link) in system.links().iter().enumerate() {
-        let own = match (system.convention(), link.inertial_frame) {
+    };
+    let others = match (system.rows(), system.bodies()) {
+        (Some(rows), _) => links(rows, &poses),
+        (None, bodies) => {
+            let bodies = bodies.unwrap().iter().zip(&poses[1..]);
+            let placed = bodies.map(|(body, pose)| Body {
+                mass: body.body.mass_kg,
+                center: pose.point(&body.body.center_of_mass_m.map(T::from)),
+                rotation: pose.rotation,
+                inertia: body.body.inertia_kg_m2,
+            });
+            placed.collect()
+        }
+    };
+    std::iter::once(base).chain(others).collect()
+}
+
+fn links<T: Scalar>(rows: &Rows, poses: &[Pose<T>]) -> Vec<Body<T>> {
+    let mut bodies = Vec::new();
+    for (i, link) in rows.links.iter().enumerate() {
+        let own = match (rows.convention, link.inertial_frame) {
             (_, Some(InertialFrame::Own)) | (DhConvention::Standard, None) => &poses[i + 1],
             (_, Some(InertialFrame::Previous)) | (DhConvention::Modified, None) => &poses[i],
         };
@@ -113,7 +173,7 @@ pub fn bodies<T: Scalar>(system: &System, q: &[T]) -> Vec<Body<T>> {
         let inertia = link.inertia_kg_m2.unwrap_or_else(|| rod(link.mass_kg, &segment.map(real)));
         bodies.push(Body { mass: link.mass_kg, center, rotation: own.rotation, inertia });
     }
-    if let Some(payload) = system.payload() {
+    if let Some(payload) = &rows.payload {
         let last = &poses[poses.len() - 1];
         bodies.push(Body {
             mass: payload.mass_kg,

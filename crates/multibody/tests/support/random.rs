@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use righting_multibody::{
-    Base, DhConvention, InertialFrame, Link, Mount, Payload, Quaternion, State, System,
+    Base, BodyJoint, DhConvention, InertialFrame, JointedBody, Link, Mount, Payload, Placement,
+    Quaternion, RigidBody, State, System,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -65,7 +66,11 @@ fn link() -> impl Strategy<Value = Link> {
 
 fn base() -> impl Strategy<Value = Base> {
     let cube = (0.4..1.0_f64).prop_map(|side| Base::uniform_cube(20.0, side).unwrap());
-    let any = inertia(10.0).prop_map(|inertia_kg_m2| Base { mass_kg: 20.0, inertia_kg_m2 });
+    let any = (inertia(10.0), vector(0.3)).prop_map(|(inertia_kg_m2, center_of_mass_m)| Base {
+        mass_kg: 20.0,
+        center_of_mass_m,
+        inertia_kg_m2,
+    });
     prop_oneof![cube, any]
 }
 
@@ -86,8 +91,77 @@ fn payload() -> impl Strategy<Value = Option<Payload>> {
     proptest::option::of(held)
 }
 
-/// Any system of one to six joints.
+/// Where a joint is: anywhere, or as on real arms at right angles, along an axis or at no distance.
+fn placement() -> impl Strategy<Value = Placement> {
+    let rpy = [angle(), angle(), angle()];
+    let rotation = rpy.prop_map(|[roll, pitch, yaw]| Placement::rotation_of_rpy(roll, pitch, yaw));
+    let position = prop_oneof![
+        1 => Just(Vector3::zeros()),
+        2 => (length(), length()).prop_map(|(x, z)| Vector3::new(x, 0.0, z)),
+        2 => vector(0.6),
+    ];
+    (position, rotation).prop_map(|(position_m, rotation)| Placement { position_m, rotation })
+}
+
+fn joint() -> impl Strategy<Value = BodyJoint> {
+    let axis = prop_oneof![
+        Just(Vector3::x()),
+        Just(-Vector3::y()),
+        Just(Vector3::z()),
+        Just(-2.0 * Vector3::z()),
+        vector(1.0).prop_filter("a direction", |axis| axis.norm() > 1e-3),
+    ];
+    prop_oneof![1 => Just(BodyJoint::Fixed), 4 => axis.prop_map(BodyJoint::Revolute)]
+}
+
+fn rigid_body() -> impl Strategy<Value = RigidBody> {
+    let massless = RigidBody {
+        mass_kg: 0.0,
+        center_of_mass_m: Vector3::zeros(),
+        inertia_kg_m2: Matrix3::zeros(),
+    };
+    let any = (
+        0.1..8.0_f64,
+        vector(0.4),
+        prop_oneof![Just(Matrix3::zeros()).boxed(), inertia(0.5).boxed()],
+    );
+    let any = any.prop_map(|(mass_kg, center_of_mass_m, inertia_kg_m2)| RigidBody {
+        mass_kg,
+        center_of_mass_m,
+        inertia_kg_m2,
+    });
+    prop_oneof![1 => Just(massless), 4 => any]
+}
+
+/// Any tree of one to eight bodies in any order, some of them fixed; a serial one half of the time.
+pub fn tree() -> impl Strategy<Value = System> {
+    let body = (placement(), joint(), rigid_body(), any::<prop::sample::Index>());
+    let bodies = (vec(body, 1..=8), any::<bool>());
+    let shuffled = bodies.prop_flat_map(|(bodies, is_serial)| {
+        let order: Vec<usize> = (0..bodies.len()).collect();
+        (Just(bodies), Just(is_serial), Just(order).prop_shuffle())
+    });
+    (base(), shuffled).prop_filter_map("a joint", |(base, (bodies, is_serial, order))| {
+        // Body i is carried by an earlier one, and then stands at `order[i]` of the list.
+        let mut list: Vec<Option<JointedBody>> = vec![None; bodies.len()];
+        for (i, (placement, joint, body, at)) in bodies.into_iter().enumerate() {
+            let before = if is_serial { i } else { at.index(i + 1) };
+            let parent = before.checked_sub(1).map(|parent| order[parent]);
+            list[order[i]] = Some(JointedBody { parent, placement, joint, body });
+        }
+        let list: Vec<JointedBody> = list.into_iter().flatten().collect();
+        let has_joint = list.iter().any(JointedBody::is_movable);
+        has_joint.then(|| System::of_bodies(base, list).unwrap())
+    })
+}
+
+/// Any system of one to six joints, or a tree.
 pub fn system() -> impl Strategy<Value = System> {
+    prop_oneof![rows(), tree()]
+}
+
+/// Any system of one to six joints in rows.
+fn rows() -> impl Strategy<Value = System> {
     let convention = prop_oneof![Just(DhConvention::Standard), Just(DhConvention::Modified)];
     (base(), mount(), convention, vec(link(), 1..=6), payload()).prop_map(
         |(base, mount, convention, links, payload)| {

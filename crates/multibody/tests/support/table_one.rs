@@ -1,7 +1,9 @@
 //! The systems of the paper's Table I.
 
 use nalgebra::Vector3;
-use righting_multibody::{Base, DhConvention, Link, Mount, System};
+use righting_multibody::{
+    Base, BodyJoint, DhConvention, JointedBody, Link, Mount, Placement, RigidBody, System,
+};
 
 /// A row of Table I: mass, a, α in degrees, d, θ in degrees.
 type Row = (f64, f64, f64, f64, f64);
@@ -65,4 +67,32 @@ pub fn all() -> [(&'static str, System); 4] {
         ("canadarm2_table", canadarm2_table()),
         ("canadarm2", canadarm2()),
     ]
+}
+
+/// A system of standard rows written as bodies: the frame of body i is where row i turns, its joint where
+/// frame i−1 is.
+pub fn as_bodies(system: &System) -> System {
+    let rows = system.rows().unwrap();
+    assert_eq!(rows.convention, DhConvention::Standard);
+    let mount = &rows.mount;
+    let mut before = Placement { position_m: mount.position_m, rotation: *mount.rotation.matrix() };
+    let mut bodies = Vec::new();
+    for (k, link) in rows.links.iter().enumerate() {
+        let offset = Vector3::new(link.a_m, 0.0, link.d_m);
+        let across = offset.cross_matrix();
+        let turned = Placement::rotation_of_rpy(0.0, 0.0, link.theta_rad);
+        bodies.push(JointedBody {
+            parent: k.checked_sub(1),
+            placement: Placement { rotation: before.rotation * turned, ..before },
+            joint: BodyJoint::Revolute(Vector3::z()),
+            body: RigidBody {
+                mass_kg: link.mass_kg,
+                center_of_mass_m: offset / 2.0,
+                inertia_kg_m2: across * across * (-link.mass_kg / 12.0),
+            },
+        });
+        let rotation = Placement::rotation_of_rpy(link.alpha_rad, 0.0, 0.0);
+        before = Placement { position_m: offset, rotation };
+    }
+    System::of_bodies(system.base().clone(), bodies).unwrap()
 }

@@ -24,13 +24,16 @@ const MOST_LOOKS: usize = 100_000;
 /// Parts of a step within which a clearance is stated at most.
 const MOST_PARTS: usize = 12;
 
+/// Joints, and how far from the axis of each a point can be.
+type Reach = Vec<(usize, f64)>;
+
 pub(super) struct Approach<'a> {
     clearances: &'a Clearances,
     /// How much of a clearance may be lacking.
     lacking: f64,
     /// Of each clearance, R_j of what it has of the arm: of the outer thing, then of the inner one if that
-    /// moves too; one a joint that moves it.
-    reach: Vec<Vec<Vec<f64>>>,
+    /// moves too; of each joint that moves it.
+    reach: Vec<Vec<Reach>>,
     /// The arm where the step ends that was followed last.
     posture: Option<Kinematics<f64>>,
     looks_left: usize,
@@ -130,9 +133,9 @@ impl<'a> Approach<'a> {
 
     /// The most that points of both things are off their straight ways in a part of a step.
     fn bend(&self, step: &Step<'_>, place: usize, from: f64, to: f64) -> f64 {
-        let of_thing = |reach: &Vec<f64>| {
+        let of_thing = |reach: &Reach| {
             let mut sums = [0.0; 3];
-            for (joint, reach) in reach.iter().enumerate() {
+            for &(joint, reach) in reach {
                 let rate = step.largest_rate(joint, [from, to]);
                 sums[0] += reach * step.largest_acceleration(joint, [from, to]);
                 sums[1] += rate;
@@ -227,7 +230,7 @@ impl Moment {
 }
 
 /// R_j of what a clearance has of the arm.
-fn reach(clearances: &Clearances, place: usize) -> Vec<Vec<f64>> {
+fn reach(clearances: &Clearances, place: usize) -> Vec<Reach> {
     let pair = clearances.pair(place);
     let reach = |core: &Core| clearances.system.reach_m(core);
     match &pair.other {

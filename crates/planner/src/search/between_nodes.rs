@@ -205,13 +205,15 @@ impl Search<'_> {
 
     fn stated_within_steps(&self) -> String {
         let limits = &self.stage_limits;
-        let joints = limits.joints.keys().map(|joint| format!("the angle of joint {}", joint + 1));
+        let names = &self.scenario.system().names;
+        let joints = limits.joints.keys();
+        let joints = joints.map(|&joint| format!("the angle of {}", names.joint(joint)));
         let at_places = |parts: usize| {
             let places = if parts == 2 { "place" } else { "places" };
             format!("(at {} {places} in every step)", parts - 1)
         };
         let distances = limits.clearances.iter().map(|(&place, &parts)| {
-            let between = self.clearances.between(place);
+            let between = names.between(&self.clearances.between(place));
             format!("the clearance of {between} {}", at_places(parts))
         });
         let cones = limits.cones.iter().map(|(&place, &parts)| {

@@ -1,4 +1,4 @@
-/*! Generated from sources 29d37b653d56d9ba54341d8acef47525c4857dae5ffb3f0c7de86abf585b0aa4 */
+/*! Generated from sources 387f4586d67434a192e5a0073342934cf0b77b9392819018208b4e81b0e33309 */
 /*!
 three
 

@@ -50,6 +50,8 @@ export interface Spacecraft {
   /** Edges of the box drawn for the base, m, and its attitude in the body frame. */
   box_m: [number, number, number];
   box_attitude: [number, number, number, number];
+  /** Its center, the base's center of mass, in the body frame. */
+  box_center_m: Triple;
   /** Of the sphere that the arm keeps out of, if there is one. */
   keep_out_radius_m: number | null;
   /** Shapes that the arm keeps out of, body axes. */
@@ -59,6 +61,12 @@ export interface Spacecraft {
   clearance_m: number;
   /** The point of the arm that lies on each joint's axis. */
   joint_points: number[];
+  /** The points of the arm that links are drawn between. */
+  links: [number, number][];
+  /** The points of the arm that are its ends. */
+  tips: number[];
+  /** Names of the joints; null where a joint goes by its number. */
+  joint_names: (string | null)[];
   has_payload: boolean;
   joint_limits: JointLimits[];
   /** The system's, at the start; inertial axes. */

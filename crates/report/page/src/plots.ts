@@ -193,7 +193,7 @@ function panels(data: ReportData, motion: Motion): Panel[] {
     }));
   const joints = (name: Parameters<Motion["component"]>[0], factor = 1): Curve[] =>
     joint_limits.map((_, i) => ({
-      name: `${i + 1}`, stroke: () => jointColor(i), values: scaled(motion.component(name, i), factor),
+      name: data.spacecraft.joint_names[i] ?? `${i + 1}`, stroke: () => jointColor(i), values: scaled(motion.component(name, i), factor),
     }));
   const one = (name: string, values: ArrayLike<number>, paint = "ink"): Curve =>
     ({ name, stroke: () => color(paint), values });

@@ -1,49 +1,47 @@
 import { BoxGeometry, Group, Mesh, SphereGeometry, Vector3 } from "three";
 import type { KeepOut, Spacecraft } from "./data";
 import { fromScalarFirst } from "./motion";
-import { boxEdges, Capsule, polyline, Strut, surface, type Stroke } from "./parts";
+import { boxEdges, Capsule, segments, Strut, surface, type Stroke } from "./parts";
 import { color, jointColor } from "./theme";
 
-/** The base and its arm, in body axes. */
+/** The base and its arms, in body axes. */
 export class SpacecraftModel {
   readonly group = new Group();
   private readonly links: Strut[] = [];
   private readonly joints: Strut[] = [];
   private readonly capsules: Capsule[];
-  private readonly tip: Mesh;
+  private readonly tips: Mesh[];
   private points: Vector3[] = [];
 
   constructor(private readonly spacecraft: Spacecraft, reach: number) {
     const smallest = Math.min(...spacecraft.box_m);
     this.thickness = Math.min(0.02 * reach, 0.16 * smallest);
     this.group.add(base(spacecraft), outline(spacecraft, { color: "edge", width: 1.5 }));
-    const count = spacecraft.joint_points.length;
-    for (let i = 0; i < count; i++) {
-      const link = new Strut(this.thickness, surface(() => color("link")));
-      const joint = new Strut(1.75 * this.thickness, surface(() => jointColor(i)));
-      this.links.push(link);
-      this.joints.push(joint);
-      this.group.add(link.mesh, joint.mesh);
-    }
+    for (const _ of spacecraft.links) this.links.push(new Strut(this.thickness, surface(() => color("link"))));
+    spacecraft.joint_points.forEach((_, i) => {
+      this.joints.push(new Strut(1.75 * this.thickness, surface(() => jointColor(i))));
+    });
+    this.group.add(...[...this.links, ...this.joints].map((strut) => strut.mesh));
     const size = spacecraft.has_payload ? 4 : 1.6;
-    this.tip = new Mesh(new SphereGeometry(size * this.thickness, 32, 16), surface(() => color("tip")));
+    const ball = new SphereGeometry(size * this.thickness, 32, 16);
+    this.tips = spacecraft.tips.map(() => new Mesh(ball, surface(() => color("tip"))));
     const skin = surface(() => color("link"), 0.45);
     this.capsules = spacecraft.capsule_radii_m.map((radius) => new Capsule(radius, skin));
-    this.group.add(this.tip, ...this.capsules.map((capsule) => capsule.group));
+    this.group.add(...this.tips, ...this.capsules.map((capsule) => capsule.group));
   }
 
   private readonly thickness: number;
 
-  /** Puts the arm where its points, its joint axes and the ends of its capsules are, body axes. */
+  /** Puts the arms where their points, its joint axes and the ends of its capsules are, body axes. */
   pose(points: Vector3[], axes: Vector3[], capsules: Vector3[]): void {
     this.points = points;
-    this.links.forEach((link, i) => link.between(points[i], points[i + 1]));
+    this.links.forEach((link, i) => link.between(...linkEnds(this.spacecraft, points, i)));
     this.joints.forEach((joint, i) => {
       const center = points[this.spacecraft.joint_points[i]];
       const half = axes[i].clone().setLength(2.1 * this.thickness);
       joint.between(center.clone().sub(half), center.clone().add(half));
     });
-    this.tip.position.copy(points[points.length - 1]);
+    this.tips.forEach((tip, i) => tip.position.copy(points[this.spacecraft.tips[i]]));
     this.capsules.forEach((capsule, i) => capsule.between(capsules[2 * i], capsules[2 * i + 1]));
   }
 
@@ -54,10 +52,17 @@ export class SpacecraftModel {
   }
 }
 
-/** The base and its arm as lines: where they start, or shall arrive. */
+/** The two points that a link is drawn between. */
+function linkEnds({ links }: Spacecraft, points: Vector3[], link: number): [Vector3, Vector3] {
+  const [from, to] = links[link];
+  return [points[from], points[to]];
+}
+
+/** The base and its arms as lines: where they start, or shall arrive. */
 export function ghost(spacecraft: Spacecraft, arm: Vector3[], stroke: Stroke): Group {
   const group = new Group();
-  group.add(outline(spacecraft, stroke), polyline(arm, { ...stroke, width: 2 * stroke.width }));
+  const ends = spacecraft.links.flatMap((_, link) => linkEnds(spacecraft, arm, link));
+  group.add(outline(spacecraft, stroke), segments(ends, { ...stroke, width: 2 * stroke.width }));
   return group;
 }
 
@@ -69,6 +74,7 @@ function base(spacecraft: Spacecraft): Group {
   if (spacecraft.keep_out.length === 0) {
     const mesh = new Mesh(new BoxGeometry(...spacecraft.box_m), skin);
     mesh.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
+    mesh.position.fromArray(spacecraft.box_center_m);
     group.add(mesh);
   }
   return group;
@@ -99,12 +105,13 @@ function outline(spacecraft: Spacecraft, stroke: Stroke): Group {
   if (spacecraft.keep_out.length === 0) {
     const lines = boxEdges(spacecraft.box_m, stroke);
     lines.quaternion.copy(fromScalarFirst(spacecraft.box_attitude));
+    lines.position.fromArray(spacecraft.box_center_m);
     group.add(lines);
   }
   return group;
 }
 
-/** How far the base reaches from its center of mass, m. */
+/** How far the base reaches from the origin of its frame, m. */
 export function extent(spacecraft: Spacecraft): number {
   const of = (shape: KeepOut): number => {
     if ("box" in shape) {

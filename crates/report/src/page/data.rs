@@ -1,7 +1,7 @@
 //! Everything the page says, in the shape that `page/src/data.ts` mirrors.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
-use righting_multibody::DhConvention;
+use righting_multibody::{DhConvention, System};
 use righting_results::{Solution, Trajectory, UsedOptimizer};
 use righting_scenario::{Maneuver, Scenario, SystemDescription, bodies};
 use serde::Serialize;
@@ -47,6 +47,8 @@ struct Spacecraft {
     box_m: [f64; 3],
     /// Its attitude in the body frame, scalar first.
     box_attitude: [f64; 4],
+    /// Its center, the base's center of mass, in the body frame.
+    box_center_m: [f64; 3],
     keep_out_radius_m: Option<f64>,
     /// Shapes that the arm keeps out of, in body axes.
     keep_out: Vec<KeepOut>,
@@ -55,6 +57,12 @@ struct Spacecraft {
     clearance_m: f64,
     /// Which of the arm's points lies on each joint's axis.
     joint_points: Vec<usize>,
+    /// Which of the arm's points links are drawn between.
+    links: Vec<[usize; 2]>,
+    /// The arm's points that are its ends.
+    tips: Vec<usize>,
+    /// Names of the joints; none where a joint goes by its number.
+    joint_names: Vec<Option<String>>,
     has_payload: bool,
     joint_limits: Vec<JointLimits>,
     /// The system's, at the start; inertial axes.
@@ -126,22 +134,57 @@ impl Spacecraft {
         let model = &system.model;
         let start = trajectory.start().state();
         let (box_m, box_attitude) = equivalent_box(system);
-        let joints = 0..system.joint_count();
         Self {
             box_m,
             box_attitude,
+            box_center_m: model.base().center_of_mass_m.into(),
             keep_out_radius_m: system.keep_out_radius_m,
             keep_out: system.keep_out.iter().map(KeepOut::of).collect(),
             capsule_radii_m: capsules(scenario).map(|solid| solid.radius_m).collect(),
             clearance_m: scenario.collision().clearance_m,
-            joint_points: match model.convention() {
-                DhConvention::Standard => joints.collect(),
-                DhConvention::Modified => joints.map(|joint| joint + 1).collect(),
-            },
-            has_payload: model.payload().is_some(),
+            joint_points: joint_points(model),
+            links: links(model),
+            tips: tips(model),
+            joint_names: (0..system.joint_count())
+                .map(|joint| system.names.of_joint(joint).map(str::to_owned))
+                .collect(),
+            has_payload: model.rows().is_some_and(|rows| rows.payload.is_some()),
             joint_limits: system.joint_limits.iter().map(JointLimits::of).collect(),
             center_of_mass_m: model.inertial_center_of_mass(&start).into(),
             momentum_n_m_s: model.inertial_angular_momentum(&start).into(),
+        }
+    }
+}
+
+/// The frame whose origin lies on each joint's axis.
+fn joint_points(model: &System) -> Vec<usize> {
+    let joints = 0..model.joint_count();
+    match model.rows().map(|rows| rows.convention) {
+        Some(DhConvention::Standard) => joints.collect(),
+        Some(DhConvention::Modified) => joints.map(|joint| joint + 1).collect(),
+        None => joints.filter_map(|joint| Some(model.body_of(joint)? + 1)).collect(),
+    }
+}
+
+/// Of rows, each frame and the next; of bodies, each one's frame and that of the body that carries it, the
+/// base aside.
+fn links(model: &System) -> Vec<[usize; 2]> {
+    match model.bodies() {
+        None => (0..model.part_count()).map(|link| [link, link + 1]).collect(),
+        Some(bodies) => {
+            let carried = bodies.iter().enumerate();
+            carried.filter_map(|(body, of)| Some([of.parent? + 1, body + 1])).collect()
+        }
+    }
+}
+
+/// The frames beyond which nothing is.
+fn tips(model: &System) -> Vec<usize> {
+    match model.bodies() {
+        None => vec![model.part_count()],
+        Some(bodies) => {
+            let carries = |body: usize| bodies.iter().any(|other| other.parent == Some(body));
+            (0..bodies.len()).filter(|&body| !carries(body)).map(|body| body + 1).collect()
         }
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct Body {
 pub(super) enum Carrier {
     /// The base's body frame.
     Base,
-    /// A frame of the arm; frame 0 is the mount.
+    /// A frame of the model; frame 0 moves with the base.
     Frame(usize),
 }
 
@@ -38,7 +38,8 @@ impl Body {
                 Matrix3::from_diagonal_element(base.mass_kg * (square + square) / 12.0)
             }
         };
-        Self { mass: base.mass_kg, carrier: Carrier::Base, center: Vector3::zeros(), inertia }
+        let center = Vector3::from(base.center_of_mass_m.unwrap_or_default());
+        Self { mass: base.mass_kg, carrier: Carrier::Base, center, inertia }
     }
 
     /// The mass of row `index`, counted from zero, whose segment lies between frames `index` and
@@ -64,6 +65,16 @@ impl Body {
             inertia: link
                 .inertia_kg_m2
                 .map_or_else(|| rod(link.mass_kg, &(outboard_end - inboard_end)), matrix),
+        }
+    }
+
+    /// A body of a list, whose frame is `frame`.
+    pub fn listed(body: &file::Body, frame: usize) -> Self {
+        Self {
+            mass: body.mass_kg,
+            carrier: Carrier::Frame(frame),
+            center: Vector3::from(body.center_of_mass_m.unwrap_or_default()),
+            inertia: body.inertia_kg_m2.map_or_else(Matrix3::zeros, matrix),
         }
     }
 

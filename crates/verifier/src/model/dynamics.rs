@@ -10,16 +10,17 @@ use super::{Model, Motion, State};
 pub struct BaseAcceleration {
     /// Ω̇, rad/s².
     pub angular: Vector3<f64>,
-    /// r̈ of the base's center of mass, m/s².
+    /// r̈ of the origin of the body frame, m/s².
     pub linear: Vector3<f64>,
 }
 
-/// What the base does to all that lies beyond the mount, in inertial axes.
+/// What the base does to all that lies beyond the mount, in inertial axes; to all bodies of a list, which has
+/// no mount.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MountLoad {
     /// Force, N.
     pub force: Vector3<f64>,
-    /// Moment about the mount, N m.
+    /// Moment about the mount, or about the origin of the body frame, N m.
     pub moment: Vector3<f64>,
 }
 
@@ -92,24 +93,27 @@ impl Model {
         assert_eq!(torques.len(), self.joint_count());
         let base = self.base_acceleration(state, u, motion);
         motion.set(self, state, &base, u);
-        // Force and moment about the base's center of mass on all that lies beyond a joint.
-        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        let mut outward = self.bodies.iter().zip(motion.bodies()).rev().peekable();
-        for (joint, torque) in torques.iter_mut().enumerate().rev() {
-            let is_beyond = |carrier| matches!(carrier, Carrier::Frame(frame) if frame > joint);
-            while let Some((_, body)) = outward.next_if(|(body, _)| is_beyond(body.carrier)) {
-                let arm = body.center - state.position;
-                force += body.force;
-                moment += arm.cross(&body.force) + body.moment;
+        // Force and moment about the origin of the body frame on all that each frame carries.
+        let mut carried = std::mem::take(&mut motion.carried);
+        carried.fill([Vector3::zeros(); 2]);
+        for (body, moving) in self.bodies.iter().zip(motion.bodies()) {
+            if let Carrier::Frame(frame) = body.carrier {
+                let [force, moment] = &mut carried[frame];
+                *force += moving.force;
+                *moment += (moving.center - state.position).cross(&moving.force) + moving.moment;
             }
-            let (point, axis) = motion.joint_axis(self.convention, joint);
-            *torque = axis.dot(&(moment - (point - state.position).cross(&force)));
         }
-        // What is fixed to the mount itself.
-        for (_, body) in outward.filter(|(body, _)| matches!(body.carrier, Carrier::Frame(_))) {
-            force += body.force;
-            moment += (body.center - state.position).cross(&body.force) + body.moment;
+        for step in self.steps.iter().rev() {
+            let [force, moment] = carried[step.frame];
+            if let Some(joint) = step.joint {
+                let (point, axis) = motion.joint_axis(step);
+                torques[joint] = axis.dot(&(moment - (point - state.position).cross(&force)));
+            }
+            carried[step.parent][0] += force;
+            carried[step.parent][1] += moment;
         }
+        let [force, moment] = carried[0];
+        motion.carried = carried;
         let mount = motion.frames()[0].origin - state.position;
         MountLoad { force, moment: moment - mount.cross(&force) }
     }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::body::Carrier;
-use super::row::Convention;
+use super::step::Step;
 use super::{BaseAcceleration, Model, State};
 
 /// A frame in motion, in inertial axes.
@@ -48,6 +48,8 @@ pub struct Motion {
     base: FrameMotion,
     frames: Vec<FrameMotion>,
     bodies: Vec<BodyMotion>,
+    /// Room for force and moment on all that each frame carries.
+    pub(super) carried: Vec<[Vector3<f64>; 2]>,
     total_mass: f64,
 }
 
@@ -88,7 +90,8 @@ impl Motion {
         };
         Self {
             base: FrameMotion::STILL,
-            frames: vec![FrameMotion::STILL; model.rows.len() + 1],
+            frames: vec![FrameMotion::STILL; model.frame_count()],
+            carried: vec![[Vector3::zeros(); 2]; model.frame_count()],
             bodies: vec![still; model.bodies.len()],
             total_mass: model.total_mass,
         }
@@ -100,10 +103,11 @@ impl Motion {
     /// # Panics
     /// A slice does not have one value a joint, or `model` is not the one this was made for.
     pub fn set(&mut self, model: &Model, state: &State<'_>, base: &BaseAcceleration, u: &[f64]) {
-        let joints = model.rows.len();
+        let joints = model.joint_count();
         let State { joint_angles, joint_rates, .. } = state;
         assert_eq!([joint_angles.len(), joint_rates.len(), u.len()], [joints; 3]);
-        assert_eq!((self.frames.len(), self.bodies.len()), (joints + 1, model.bodies.len()));
+        let counts = (self.frames.len(), self.bodies.len());
+        assert_eq!(counts, (model.frame_count(), model.bodies.len()));
         let attitude = UnitQuaternion::from_quaternion(state.attitude).to_rotation_matrix();
         let rotation = attitude.into_inner();
         self.base = FrameMotion {
@@ -114,38 +118,34 @@ impl Motion {
             angular_acceleration: base.angular,
             acceleration: base.linear,
         };
-        let arm = rotation * model.mount_position;
+        let arm = rotation * model.first.origin;
         let (velocity, acceleration) = self.base.point(&arm);
         self.frames[0] = FrameMotion {
-            rotation: rotation * model.mount_rotation,
+            rotation: rotation * model.first.rotation,
             origin: self.base.origin + arm,
             velocity,
             acceleration,
             ..self.base
         };
-        for (i, row) in model.rows.iter().enumerate() {
-            let before = self.frames[i];
-            let (rotation, arm) = row.follow(model.convention, &before.rotation, joint_angles[i]);
-            // The joint's axis, fixed in both frames.
-            let axis = match model.convention {
-                Convention::Distal => before.rotation.column(2).into_owned(),
-                Convention::Proximal => rotation.column(2).into_owned(),
-            };
-            let relative = axis * joint_rates[i];
+        for step in &model.steps {
+            let before = self.frames[step.parent];
+            let [angle, rate, acceleration] = [*joint_angles, *joint_rates, u]
+                .map(|of| step.joint.map_or(0.0, |joint| of[joint]));
+            let (rotation, arm) = step.follow(&before.rotation, angle);
+            let axis = step.axis(&before.rotation, &rotation);
+            let relative = axis * rate;
             let turned = FrameMotion {
                 rotation,
                 angular_rate: before.angular_rate + relative,
                 angular_acceleration: before.angular_acceleration
-                    + axis * u[i]
+                    + axis * acceleration
                     + before.angular_rate.cross(&relative),
                 ..before
             };
-            let (velocity, acceleration) = match model.convention {
-                Convention::Distal => turned.point(&arm),
-                Convention::Proximal => before.point(&arm),
-            };
+            let carrier = if step.turns_with_joint() { &turned } else { &before };
+            let (velocity, acceleration) = carrier.point(&arm);
             let origin = before.origin + arm;
-            self.frames[i + 1] = FrameMotion { origin, velocity, acceleration, ..turned };
+            self.frames[step.frame] = FrameMotion { origin, velocity, acceleration, ..turned };
         }
         for (body, motion) in model.bodies.iter().zip(&mut self.bodies) {
             let frame = match body.carrier {
@@ -173,7 +173,7 @@ impl Motion {
         &self.base
     }
 
-    /// The motion of frames 0 to j.
+    /// The motion of every frame.
     pub fn frames(&self) -> &[FrameMotion] {
         &self.frames
     }
@@ -203,16 +203,10 @@ impl Motion {
         self.bodies.iter().map(about_center).sum()
     }
 
-    /// The joint's axis (counted from zero): a point on it and its direction, inertial.
-    pub(super) fn joint_axis(
-        &self,
-        convention: Convention,
-        joint: usize,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        let frame = match convention {
-            Convention::Distal => &self.frames[joint],
-            Convention::Proximal => &self.frames[joint + 1],
-        };
-        (frame.origin, frame.rotation.column(2).into_owned())
+    /// The axis of a step's joint: a point on it and its direction, inertial.
+    pub(super) fn joint_axis(&self, step: &Step) -> (Vector3<f64>, Vector3<f64>) {
+        let [before, after] = [&self.frames[step.parent], &self.frames[step.frame]];
+        let point = if step.turns_with_joint() { before.origin } else { after.origin };
+        (point, step.axis(&before.rotation, &after.rotation))
     }
 }
