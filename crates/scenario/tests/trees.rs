@@ -82,7 +82,8 @@ fn the_shipped_twin_is_the_arm_in_rows() {
 
 #[test]
 fn what_is_wrong_is_named() {
-    let cases: [(fn(&mut Value), &str); 24] = [
+    type Case = (fn(&mut Value), &'static str);
+    let cases: [Case; 24] = [
         (
             |s| s["bodies"][0]["parent"] = json!("left_leg"),
             "bodies[0].parent: found \"left_leg\", expected the name of another body, or of the base, \"bus\"",

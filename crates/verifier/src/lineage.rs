@@ -42,7 +42,7 @@ impl Lineage {
     }
 
     /// The bodies from the one on the base to this one.
-    pub fn from_base(&self, body: usize) -> Vec<usize> {
+    pub fn way_from_base(&self, body: usize) -> Vec<usize> {
         let mut way: Vec<usize> =
             std::iter::successors(Some(body), |&body| self.parents[body]).collect();
         way.reverse();
@@ -51,13 +51,13 @@ impl Lineage {
 
     /// Those of them whose joints move.
     pub fn moving(&self, body: usize) -> Vec<usize> {
-        self.from_base(body).into_iter().filter(|&body| self.joints[body].is_some()).collect()
+        self.way_from_base(body).into_iter().filter(|&body| self.joints[body].is_some()).collect()
     }
 
     /// All bodies, every one after the one that carries it.
     pub fn outward(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.parents.len()).collect();
-        order.sort_by_key(|&body| self.from_base(body).len());
+        order.sort_by_key(|&body| self.way_from_base(body).len());
         order
     }
 }

@@ -58,7 +58,7 @@ fn of_body(system: &file::System, body: usize, axis: &Axis) -> Vec<(usize, f64)>
         Axis::Link(_) => 0.0,
     };
     let mut reach = Vec::new();
-    for body in lineage.from_base(body).into_iter().rev() {
+    for body in lineage.way_from_base(body).into_iter().rev() {
         reach.extend(lineage.joint(body).map(|joint| (joint, beyond_m)));
         beyond_m += Vector3::from(bodies[body].joint.position_m.unwrap_or_default()).norm();
     }

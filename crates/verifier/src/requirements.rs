@@ -94,7 +94,7 @@ fn size_m(system: &file::System) -> f64 {
             let length_m = |v: Option<[f64; 3]>| Vector3::from(v.unwrap_or_default()).norm();
             let lineage = Lineage::new(system);
             let reach_m = |body: usize| -> f64 {
-                let way = lineage.from_base(body).into_iter();
+                let way = lineage.way_from_base(body).into_iter();
                 way.map(|body| length_m(bodies[body].joint.position_m)).sum::<f64>()
                     + length_m(bodies[body].center_of_mass_m)
             };
