@@ -138,3 +138,109 @@ proptest! {
         }
     }
 }
+
+/// A tetrahedron in three formats.
+fn mesh(format: usize) -> (&'static str, Vec<u8>) {
+    let corners = [[0.0_f32, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]];
+    let faces = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
+    match format {
+        0 => {
+            let mut bytes = vec![b' '; 80];
+            bytes.extend(4_u32.to_le_bytes());
+            for face in faces {
+                bytes.extend([0_u8; 12]);
+                for value in face.iter().flat_map(|&corner| corners[corner]) {
+                    bytes.extend(value.to_le_bytes());
+                }
+                bytes.extend([0_u8; 2]);
+            }
+            ("a.stl", bytes)
+        }
+        1 => {
+            let mut text = String::from("solid a\n");
+            for face in faces {
+                text += "facet normal 0 0 1\nouter loop\n";
+                for [x, y, z] in face.map(|corner| corners[corner]) {
+                    text += &format!("vertex {x} {y} {z}\n");
+                }
+                text += "endloop\nendfacet\n";
+            }
+            ("a.stl", (text + "endsolid a\n").into_bytes())
+        }
+        _ => {
+            let mut text = String::from("mtllib a.mtl\n");
+            for [x, y, z] in corners {
+                text += &format!("v {x} {y} {z}\n");
+            }
+            for [a, b, c] in faces {
+                text += &format!("f {} {} {}\n", a + 1, b + 1, c + 1);
+            }
+            ("a.obj", text.into_bytes())
+        }
+    }
+}
+
+fn robot_with(
+    file: &str,
+    folder: &std::path::Path,
+) -> Result<System, righting_import::ImportError> {
+    let text = format!(
+        "<robot name='r'><link name='a'><collision><geometry><mesh filename='package://meshes/{file}'/>\
+         </geometry></collision></link></robot>"
+    );
+    let options = ReadOptions { folder: Some(folder.to_owned()), ..ReadOptions::default() };
+    Robot::from_urdf(&text, &options)?.system(&Options::floating("a"))
+}
+
+#[test]
+fn a_capsule_stands_for_a_mesh_of_each_format() {
+    for format in 0..3 {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, bytes) = mesh(format);
+        std::fs::create_dir_all(folder.path().join("meshes/urdf")).unwrap();
+        std::fs::write(folder.path().join("meshes").join(file), bytes).unwrap();
+        let system = robot_with(file, &folder.path().join("meshes/urdf")).unwrap();
+        assert!(system.notes[1].starts_with("capsules stand for meshes"), "{:?}", system.notes);
+        let capsule = system.base_shapes[0].bounding_capsule();
+        let [from, to] = capsule.ends_m;
+        for corner in [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]] {
+            let corner = nalgebra::Vector3::from(corner.map(|value: f32| f64::from(value)));
+            let along = to - from;
+            let share = along.dot(&(corner - from)) / along.norm_squared().max(1e-300);
+            let off_m = (corner - from - along * share.clamp(0.0, 1.0)).norm();
+            assert!(off_m <= capsule.radius_m * (1.0 + 1e-12));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_damaged_mesh_does_any(
+        format in 0..3_usize,
+        damages in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..8),
+        length in any::<prop::sample::Index>(),
+        is_cut in any::<bool>(),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, mut bytes) = mesh(format);
+        for (at, byte) in damages {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        if is_cut {
+            bytes.truncate(length.index(bytes.len()));
+        }
+        std::fs::create_dir_all(folder.path().join("meshes")).unwrap();
+        std::fs::write(folder.path().join("meshes").join(file), bytes).unwrap();
+        match robot_with(file, folder.path()) {
+            Ok(system) => {
+                for shape in &system.base_shapes {
+                    prop_assert!(shape.bounding_capsule().radius_m.is_finite());
+                }
+            }
+            Err(error) => prop_assert!(!error.to_string().contains('\n'), "{}", error),
+        }
+    }
+}

@@ -162,6 +162,11 @@ fn what_no_joint_can_have() {
     ] {
         assert_eq!(refusal(&with_joint(kind, rest)), message);
     }
+    // Many files have an axis of zeros where nothing moves.
+    assert!(
+        Robot::from_urdf(&with_joint("fixed", "<axis xyz='0 0 0'/>"), &ReadOptions::default())
+            .is_ok()
+    );
     let far = with_joint("fixed", "").replace("0 0 1", "0 0 1500");
     assert_eq!(
         refusal(&far),

@@ -22,9 +22,8 @@ pub(super) fn shape(
     let element = geometry.only_child()?;
     let shape = match element.tag() {
         "sphere" => Shape::Capsule(rod(0.0, size(element, "radius")?)),
-        "capsule" => Shape::Capsule(rod(size(element, "length")?, size(element, "radius")?)),
-        "cylinder" => {
-            Shape::Capsule(around_cylinder(size(element, "length")?, size(element, "radius")?))
+        "capsule" | "cylinder" => {
+            Shape::Capsule(rod(size(element, "length")?, size(element, "radius")?))
         }
         "box" => {
             let sides = element.vector("size")?;
@@ -60,17 +59,11 @@ fn check_length(element: Element<'_>, name: &str, length_m: f64) -> Result<(), I
     Err(element.place_of(name).refuse(length_m, expected))
 }
 
-/// A capsule along z, centered.
+/// A capsule along z, centered. Around a cylinder it is also what spheres at the cylinder's ends add to it,
+/// as files without capsules have them.
 fn rod(length_m: f64, radius_m: f64) -> Capsule {
     let end = Vector3::new(0.0, 0.0, length_m / 2.0);
     Capsule { ends_m: [-end, end], radius_m }
-}
-
-/// The smaller of the capsule of its radius and the sphere that hold a cylinder along z.
-fn around_cylinder(length_m: f64, radius_m: f64) -> Capsule {
-    let capsule = rod(length_m, radius_m);
-    let sphere = rod(0.0, radius_m.hypot(length_m / 2.0));
-    if sphere.volume_m3() < capsule.volume_m3() { sphere } else { capsule }
 }
 
 fn around_mesh(

@@ -41,9 +41,10 @@ pub(super) fn joint(
     if parent == child {
         return Err(element.place().refuse("one link as parent and child", "two"));
     }
-    let limits = match kind {
-        JointKind::Fixed | JointKind::Loose => Limits::NONE,
-        _ => limits(element, kind_name, notes)?,
+    // A joint that does not move has neither, whatever stands there: many files have an axis of zeros.
+    let (axis, limits) = match kind {
+        JointKind::Fixed | JointKind::Loose => (Vector3::x(), Limits::NONE),
+        _ => (axis(element)?, limits(element, kind_name, notes)?),
     };
     Ok(Joint {
         name: element.required_text("name")?.to_owned(),
@@ -52,7 +53,7 @@ pub(super) fn joint(
         parent,
         child,
         placement: origin(element)?,
-        axis: axis(element)?,
+        axis,
         limits,
         mimic: None,
     })
