@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases random replay limits wheel bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheel bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -57,6 +57,14 @@ wheel: setup
 	cargo clippy --manifest-path python/Cargo.toml --release --locked -- -D warnings
 	cargo build --release --locked
 	scripts/wheel.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# Public and random robots, imported and exported again, beside Pinocchio's and MuJoCo's models of them:
+# docs/import.md. Gets a virtual environment of its own.
+check-import: setup
+	cargo build --release --locked
+	cargo build --release --locked -p righting-export --example reference
+	target="$${CARGO_TARGET_DIR:-target}/release" && \
+		scripts/check_import.sh --righting "$$target/righting" --reference "$$target/examples/reference"
 
 # All tests on Debian 13, in a root of its own: as root, with debootstrap.
 test-debian13:

@@ -14,6 +14,7 @@ mod failure;
 mod figures;
 mod fly;
 mod hint;
+mod import;
 mod interrupt;
 mod manpages;
 mod optimizer;
@@ -23,6 +24,7 @@ mod plan_folder;
 mod power;
 mod progress;
 mod reach;
+mod readable_json;
 mod report;
 mod scenario_input;
 mod schema;
@@ -80,6 +82,7 @@ enum Command {
     Fly(fly::Arguments),
     Figures(figures::Arguments),
     Export(export::Arguments),
+    Import(import::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
     Completions(completions::Arguments),
@@ -108,6 +111,7 @@ fn main() -> ExitCode {
         Command::Fly(arguments) => fly::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
@@ -141,6 +145,7 @@ impl Command {
             Self::Sweep(arguments) => arguments.prints_json(),
             Self::Figures(_)
             | Self::Export(_)
+            | Self::Import(_)
             | Self::SweepWorker
             | Self::Schema(_)
             | Self::Completions(_)

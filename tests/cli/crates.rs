@@ -66,12 +66,13 @@ fn no_crate_reaches_what_it_shall_know_nothing_of() {
     let physics = ["righting-multibody", "righting-scenario", "righting-planner"];
     let symbols = ["righting-symbolic"];
     let planner = ["righting-planner"];
-    let rules: [(&str, &[&[&str]]); 13] = [
+    let rules: [(&str, &[&[&str]]); 14] = [
         ("righting-scenario", &[&solvers, &symbols, &planner]),
         ("righting-results", &[&solvers, &symbols, &planner]),
         ("righting-verifier", &[&solvers, &symbols, &planner]),
         ("righting-analysis", &[&solvers, &symbols, &planner]),
         ("righting-export", &[&solvers, &symbols, &planner, &["righting-report"]]),
+        ("righting-import", &[&solvers, &symbols, &["righting-scenario"]]),
         ("righting-multibody", &[&solvers, &symbols]),
         ("righting-symbolic", &[&solvers, &physics]),
         ("righting-nlp", &[&["righting-ipopt-sys"], &physics, &symbols]),

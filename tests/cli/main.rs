@@ -13,6 +13,7 @@ mod explain;
 mod export;
 mod figures;
 mod full_disk;
+mod import;
 mod kinds;
 mod library;
 mod machine;

@@ -5,13 +5,15 @@ use std::process::{Command, Stdio};
 
 use crate::program::{files_in, folder_with, righting};
 
-const PAGES: [&str; 20] = [
+const PAGES: [&str; 22] = [
     "righting-completions.1",
     "righting-doctor.1",
     "righting-envelope.1",
     "righting-explain.1",
     "righting-export.1",
     "righting-figures.1",
+    "righting-fly.1",
+    "righting-import.1",
     "righting-manpages.1",
     "righting-power.1",
     "righting-reach.1",

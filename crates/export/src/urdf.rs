@@ -1,6 +1,5 @@
 //! The whole system as URDF: the base as root link, floating when the file is loaded.
 
-use nalgebra::{Matrix3, Vector3};
 use righting_multibody::{Placement, RigidBody};
 use righting_scenario::{JointLimits, SystemDescription};
 
@@ -91,43 +90,11 @@ fn joint(hinge: &Hinge, parent: &str) -> Element {
 fn connection(name: &str, kind: &str, parent: &str, child: &str, place: &Placement) -> Element {
     let origin = Element::new("origin")
         .with_numbers("xyz", place.position_m.iter().copied())
-        .with_numbers("rpy", roll_pitch_yaw(&place.rotation).iter().copied());
+        .with_numbers("rpy", place.roll_pitch_yaw_rad());
     Element::new("joint")
         .with("name", name)
         .with("type", kind)
         .holding(Element::new("parent").with("link", parent))
         .holding(Element::new("child").with("link", child))
         .holding(origin)
-}
-
-/// Angles of R = Rz(yaw) Ry(pitch) Rx(roll), rad. Yaw is taken off before roll is read, so that the
-/// three together are R to rounding at a pitch of a right angle too, where each by itself is not
-/// determined.
-fn roll_pitch_yaw(rotation: &Matrix3<f64>) -> Vector3<f64> {
-    let yaw = rotation[(1, 0)].atan2(rotation[(0, 0)]);
-    let (sin, cos) = yaw.sin_cos();
-    let about_z = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-    let rest = about_z.transpose() * rotation;
-    let pitch = (-rest[(2, 0)]).atan2(rest[(0, 0)]);
-    let roll = (-rest[(1, 2)]).atan2(rest[(1, 1)]);
-    Vector3::new(roll, pitch, yaw)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::Rotation3;
-
-    #[test]
-    fn the_three_angles_are_the_rotation_at_any_pitch() {
-        for pitch_deg in [0.0, 30.0, -90.0, 90.0, 90.0 - 1e-7, 90.0 - 1e-12, 120.0] {
-            for (roll_deg, yaw_deg) in [(0.0, 0.0), (90.0, 180.0), (-37.0, 161.0), (10.0, -90.0)] {
-                let [roll, pitch, yaw] = [roll_deg, pitch_deg, yaw_deg].map(f64::to_radians);
-                let rotation = Rotation3::from_euler_angles(roll, pitch, yaw).into_inner();
-                let found = roll_pitch_yaw(&rotation);
-                let again = Rotation3::from_euler_angles(found.x, found.y, found.z).into_inner();
-                assert!((again - rotation).amax() < 1e-15, "{roll_deg} {pitch_deg} {yaw_deg}");
-            }
-        }
-    }
 }

@@ -98,6 +98,7 @@ mod momentum;
 mod momentum_map;
 mod nearest_inertia;
 mod parts;
+mod roll_pitch_yaw;
 mod rows;
 mod state;
 mod sweep;

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::{fmt, io};
 
+use righting_import::ImportError;
+
 use crate::file_kind::FileKind;
 
 /// Any failure of this crate that is the input's or the file system's fault.
@@ -77,6 +79,14 @@ pub enum Error {
         file: PathBuf,
         /// The field and what is wrong with it.
         field: Box<FieldError>,
+    },
+    /// A robot's file is wrong.
+    #[error("{}: {source}", file.display())]
+    Robot {
+        /// The file.
+        file: PathBuf,
+        /// Where in it, and what.
+        source: ImportError,
     },
     /// A cell of a table is wrong.
     #[error("{}: line {line}, column {column}: {mismatch}", file.display())]

@@ -9,6 +9,7 @@ mod drive;
 mod joint_row;
 mod pointing;
 mod shapes;
+mod system_options;
 
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
@@ -20,6 +21,7 @@ pub use drive::Drive;
 pub use joint_row::{JointPlace, JointRow};
 pub use pointing::{DirectionTable, Pointing};
 pub use shapes::{Capsule, Cuboid, KeepOut, Shape, Sphere};
+pub use system_options::SystemOptions;
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -32,8 +34,11 @@ pub struct Scenario {
     /// Free text for the reader.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
-    /// Path of a system file, relative to this file, or the system itself.
+    /// Path of a system file or of a robot's URDF file, relative to this file, or the system itself.
     pub system: SystemReference,
+    /// What a URDF file does not say; needed with one, and goes with nothing else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub system_options: Option<SystemOptions>,
     /// State at the start. The system's center of mass is at rest.
     pub initial: Initial,
     /// What to do.
@@ -61,7 +66,7 @@ pub struct Scenario {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SystemReference {
-    /// Path of a system file, relative to the scenario file.
+    /// Path of a system file or of a URDF file, relative to the scenario file.
     File(String),
     /// The system itself.
     Inline(Box<System>),
@@ -400,7 +405,7 @@ pub struct System {
 }
 
 /// A uniform cube, or a body of any inertia with a keep-out sphere.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `mass_kg`")]
 pub struct Base {
     /// Name by which bodies call it; `base` by default.

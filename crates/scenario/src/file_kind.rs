@@ -17,6 +17,8 @@ pub enum FileKind {
     Sweep,
     /// A sweep that is planned: `sweep.json` of its folder.
     PlannedSweep,
+    /// The base of a spacecraft alone.
+    Base,
     /// Reaction wheels.
     Wheels,
     /// The outcome of a solve.
@@ -34,6 +36,7 @@ impl FileKind {
             Self::SystemOrScenario => "a system or scenario file",
             Self::Sweep => "a sweep file",
             Self::PlannedSweep => "a planned sweep",
+            Self::Base => "a file with a base",
             Self::Wheels => "a file of wheels",
             Self::Solution => "a solution file",
             Self::Reach => "a file of reach",
@@ -52,6 +55,7 @@ impl FileKind {
             _ if has("maneuver") || has("system") => Some(Self::Scenario),
             _ if has("links") || has("bodies") => Some(Self::System),
             _ if has("wheels") => Some(Self::Wheels),
+            _ if has("mass_kg") => Some(Self::Base),
             _ => None,
         }
     }
@@ -86,6 +90,7 @@ mod tests {
             (json!({ "scenario": "slew.json", "vary": [] }), Some(FileKind::Sweep)),
             (json!({ "schema": "righting.sweep/1", "sweep": {} }), Some(FileKind::PlannedSweep)),
             (json!({ "wheels": [] }), Some(FileKind::Wheels)),
+            (json!({ "mass_kg": 150.0, "cube_side_m": 1.0 }), Some(FileKind::Base)),
             (json!({ "schema": "righting.solution/9" }), Some(FileKind::Solution)),
             (json!({ "schema": "righting.reach/1", "scenario": "a" }), Some(FileKind::Reach)),
             (json!({ "name": "a" }), None),

@@ -60,7 +60,9 @@ mod start_loads;
 pub mod system_description;
 mod system_file;
 pub mod system_or_scenario;
+mod system_reference;
 mod units;
+mod urdf;
 mod weights;
 pub mod wheels;
 
@@ -77,4 +79,5 @@ pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use system_description::SystemDescription;
 pub use system_file::SystemFile;
 pub use system_or_scenario::SystemOrScenario;
+pub use urdf::{ImportedSystem, import_urdf};
 pub use wheels::WheelArray;

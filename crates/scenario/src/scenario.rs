@@ -1,6 +1,6 @@
 //! A maneuver to plan, checked: what a scenario file means.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
@@ -10,13 +10,14 @@ use crate::error::Error;
 use crate::file::{self, SystemReference};
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
-use crate::json::{Bounds, Document, FileKind, Location, Number, shown};
+use crate::json::{Bounds, Document, FileKind, Location, Number};
 use crate::pointing::{Pointing, pointing};
 use crate::rounding::{COMPUTED, PRINTED};
 use crate::start_clearance::Start;
 use crate::start_limits::widen_to_start;
 use crate::start_loads;
-use crate::system_description::{SystemDescription, read_system};
+use crate::system_description::SystemDescription;
+use crate::system_reference::resolve_system;
 
 pub use crate::horizon::{FreeDuration, Horizon, LONGEST_S, MAX_STEPS};
 pub use crate::maneuver::{Maneuver, Slew};
@@ -87,8 +88,7 @@ impl Scenario {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
         let mut notes = Vec::new();
-        let (mut system, system_place) =
-            resolve_system(&mut scenario.system, file, &place.key("system"), &mut notes)?;
+        let (mut system, system_place) = resolve_system(&mut scenario, file, place, &mut notes)?;
         let initial_place = place.key("initial");
         if let SystemReference::Inline(file) = &mut scenario.system {
             widen_to_start(&scenario.initial, file, &system_place, &mut notes);
@@ -303,38 +303,6 @@ impl file::Scenario {
     pub fn sha256(&self) -> String {
         let text = serde_json::to_vec(self).unwrap_or_default();
         Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect()
-    }
-}
-
-/// Puts the system inline and checks it; complaints about a system file name that file. Returns the
-/// place where it stands too.
-fn resolve_system(
-    reference: &mut SystemReference,
-    file: &Path,
-    place: &Location,
-    notes: &mut Vec<String>,
-) -> Result<(SystemDescription, Location), Error> {
-    match reference {
-        SystemReference::Inline(system) => {
-            Ok((SystemDescription::from_file(system, place, notes)?, place.clone()))
-        }
-        SystemReference::File(path) => {
-            if path.is_empty() {
-                return Err(place.refuse("\"\"", "the path of a system file, or a system"));
-            }
-            let system_file: PathBuf = file.parent().unwrap_or(Path::new("")).join(&*path);
-            let mut system = read_system(&system_file).map_err(|error| match error {
-                Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
-                unreadable => place.refuse(
-                    shown(&path.as_str().into()),
-                    format_args!("the path of a system file ({unreadable})"),
-                ),
-            })?;
-            let place = Location::root(&system_file);
-            let description = SystemDescription::from_file(&mut system, &place, notes)?;
-            *reference = SystemReference::Inline(Box::new(system));
-            Ok((description, place))
-        }
     }
 }
 

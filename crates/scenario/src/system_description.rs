@@ -188,7 +188,10 @@ pub(crate) fn unit_quaternion(
 }
 
 /// The base, and the radius of its keep-out sphere if it has one: beside `keep_out` only where it is given.
-fn base(base: &file::Base, place: &Location) -> Result<(multibody::Base, Option<f64>), Error> {
+pub(crate) fn base(
+    base: &file::Base,
+    place: &Location,
+) -> Result<(multibody::Base, Option<f64>), Error> {
     let mass_kg = place.key("mass_kg").within(base.mass_kg, BODY_MASS_KG)?;
     let cube_place = place.key("cube_side_m");
     let radius_place = place.key("keep_out_radius_m");

@@ -32,6 +32,7 @@ fn checked(mut system: file::System) -> Result<Scenario, Error> {
         name: "inertials".to_owned(),
         description: None,
         system: file::SystemReference::Inline(Box::new(system)),
+        system_options: None,
         initial: file::Initial {
             joint_angles_deg: (0..joints).map(|joint| 20.0 + 10.0 * joint as f64).collect(),
             ..file::Initial::default()

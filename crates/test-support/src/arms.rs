@@ -135,6 +135,7 @@ pub(crate) fn at_rest(system: file::System) -> Scenario {
         name: "arm at rest".to_owned(),
         description: None,
         system: file::SystemReference::Inline(Box::new(system)),
+        system_options: None,
         initial: file::Initial { joint_angles_deg, ..file::Initial::default() },
         maneuver: file::Maneuver {
             kind: file::ManeuverType::Slew,
