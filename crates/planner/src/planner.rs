@@ -18,6 +18,7 @@ use crate::planned::{Ending, Planned};
 use crate::remedies::remedies;
 use crate::scaling::Scaling;
 use crate::search::{Earlier, Search};
+use crate::sequence;
 
 /// How often a maneuver that costs far more than estimated is measured anew.
 const MOST_MEASURINGS: usize = 3;
@@ -153,6 +154,12 @@ impl<'a> Planner<'a> {
             return Err(reason.into());
         }
 
+        let of_legs = match earlier.is_none() && !scenario.waypoints().is_empty() {
+            true => self.planned_legs(scenario, observer),
+            false => None,
+        };
+        let earlier = earlier.or(of_legs.as_ref());
+
         let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
         let mut is_late = false;
         let mut watched = |record: &IterationRecord| {
@@ -160,7 +167,9 @@ impl<'a> Planner<'a> {
             if is_late { Control::Stop } else { observer(record) }
         };
         let (mut measured, mut scaling) = Scaling::applied(scenario)?;
-        let is_of_this = earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
+        // The legs one after the other are a plan, but not yet one over all.
+        let is_of_this = of_legs.is_none()
+            && earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
         let mut search = |measured: &Scenario, scaling: &Scaling| {
             let earlier = earlier.as_ref().map(|plan| Earlier { plan, is_of_this });
@@ -200,6 +209,21 @@ impl<'a> Planner<'a> {
             }));
         }
         Ok(planned)
+    }
+}
+
+impl Planner<'_> {
+    /// A motion to start from over the waypoints of a scenario; none where its legs were not all planned.
+    fn planned_legs(
+        &self,
+        scenario: &Scenario,
+        observer: &mut dyn FnMut(&IterationRecord) -> Control,
+    ) -> Option<Trajectory> {
+        sequence::of_legs(scenario, |leg| {
+            let mut planner = Planner::new().threads(self.threads).without_remedies();
+            planner.time_limit = self.time_limit;
+            planner.plan(leg, observer).ok()
+        })
     }
 }
 

@@ -61,6 +61,7 @@ pub mod system_description;
 mod system_file;
 pub mod system_or_scenario;
 mod units;
+mod waypoints;
 mod weights;
 pub mod wheels;
 
@@ -77,4 +78,5 @@ pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use system_description::SystemDescription;
 pub use system_file::SystemFile;
 pub use system_or_scenario::SystemOrScenario;
+pub use waypoints::{Leg, Waypoint};
 pub use wheels::WheelArray;
