@@ -94,9 +94,10 @@ impl file::Scenario {
 
 /// Lets a slew without a target of its own end in its last waypoint.
 pub(crate) fn end_in_last(maneuver: &mut file::Maneuver) {
-    let file::Maneuver { axis, angle_deg, target_attitude, .. } = maneuver;
+    let file::Maneuver { kind, axis, angle_deg, target_attitude, .. } = maneuver;
     let has_target = axis.is_some() || angle_deg.is_some() || target_attitude.is_some();
-    if let (false, Some(last)) = (has_target, maneuver.waypoints.last()) {
+    let lacks_target = *kind == file::ManeuverType::Slew && !has_target;
+    if let (true, Some(last)) = (lacks_target, maneuver.waypoints.last()) {
         maneuver.axis = last.axis;
         maneuver.angle_deg = last.angle_deg;
         maneuver.target_attitude = last.target_attitude;
