@@ -159,8 +159,20 @@ fn asked(scenario: &Scenario, abilities: &Abilities) -> Asked {
         Maneuver::Slew(slew) => (Some(slew), false),
         Maneuver::Detumble => (None, true),
     };
-    let estimated_s = |slew: &Slew| abilities.rates.duration_s(&slew.axis, slew.angle_rad);
-    let least_s = |slew: &Slew| match slew.angle_rad.abs() {
+    // Of a slew with waypoints those of its legs, one after the other.
+    let turns = |slew: &Slew| -> Vec<Slew> {
+        let legs = scenario.legs().into_iter();
+        match scenario.waypoints() {
+            [] => vec![slew.clone()],
+            _ => legs
+                .filter_map(|leg| scenario.clone().with_leg(&leg).maneuver().slew().cloned())
+                .collect(),
+        }
+    };
+    let estimated_s = |slew: &Slew| -> Option<f64> {
+        turns(slew).iter().map(|turn| abilities.rates.duration_s(&turn.axis, turn.angle_rad)).sum()
+    };
+    let least_s = |slew: &Slew| match turns(slew).iter().map(|turn| turn.angle_rad.abs()).sum() {
         0.0 => Some(0.0),
         angle => Some(angle / abilities.axes.fastest_rad_s).filter(|least| least.is_finite()),
     };

@@ -5,7 +5,7 @@ use std::fmt;
 
 use nalgebra::Vector3;
 use righting_scenario::scenario::Slew;
-use righting_scenario::{Maneuver, Scenario};
+use righting_scenario::{Leg, Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
 use crate::detumble::{largest_inertia_kg_m2, some_posture_is_slower};
@@ -78,7 +78,13 @@ impl Impossible {
     /// is within its tolerance of doing nothing is always possible.
     pub fn of(scenario: &Scenario) -> Option<Self> {
         match scenario.maneuver() {
-            Maneuver::Slew(slew) => of_slew(scenario, slew),
+            Maneuver::Slew(slew) if scenario.waypoints().is_empty() => of_slew(scenario, slew),
+            // Every target is reached from the start, in all the time until then.
+            Maneuver::Slew(_) => scenario.legs().into_iter().find_map(|leg| {
+                let from = scenario.initial().attitude;
+                let whole = scenario.clone().with_leg(&Leg { start: 0.0, from, ..leg });
+                of_slew(&whole, whole.maneuver().slew()?)
+            }),
             Maneuver::Detumble => of_detumble(scenario),
         }
     }

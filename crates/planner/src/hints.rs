@@ -1,5 +1,6 @@
 //! What stands in the way where a plan misses its target or there is none.
 
+use righting_results::WaypointRecord;
 use righting_results::solution::{Status, Terminal};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::scenario::{Maneuver, Scenario};
@@ -26,10 +27,10 @@ const TIMES_LONGER: f64 = 1.5;
 pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status) -> Vec<String> {
     match status {
         Status::Interrupted => Vec::new(),
-        Status::Solved | Status::Acceptable => match missed(scenario, trajectory) {
-            Some(terminal) => reasons(scenario, trajectory, terminal),
-            None => Vec::new(),
-        },
+        Status::Solved | Status::Acceptable => {
+            let missed = missed(scenario, trajectory);
+            if missed.is_empty() { missed } else { reasons(scenario, trajectory, missed) }
+        }
         Status::IterationLimit => {
             let mut reasons = vec!["the solver used up solver.max_iterations".to_owned()];
             reasons.extend(active_limits(scenario, trajectory));
@@ -43,16 +44,24 @@ pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status
     }
 }
 
-/// What a slew reached instead of its target.
-fn missed(scenario: &Scenario, trajectory: &Trajectory) -> Option<Terminal> {
-    let Maneuver::Slew(_) = scenario.maneuver() else { return None };
-    let terminal = Terminal::reached(scenario, trajectory);
-    (terminal.attitude_error > ATTITUDE_ERROR).then_some(terminal)
+/// The targets that a slew did not reach, and by how much.
+fn missed(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
+    if scenario.maneuver().slew().is_none() {
+        return Vec::new();
+    }
+    let waypoints = WaypointRecord::reached(scenario, trajectory).into_iter().enumerate();
+    let on_the_way = waypoints.map(|(index, found)| {
+        let name = format!("waypoint {}", index + 1);
+        (name, found.attitude_error, found.attitude_error_deg)
+    });
+    let end = Terminal::reached(scenario, trajectory);
+    let end = ("its target".to_owned(), end.attitude_error, end.attitude_error_deg);
+    let missed = on_the_way.chain([end]).filter(|(_, error, _)| *error > ATTITUDE_ERROR);
+    missed.map(|(name, _, by_deg)| format!("misses {name} by {by_deg:.3}\u{b0}")).collect()
 }
 
-fn reasons(scenario: &Scenario, trajectory: &Trajectory, terminal: Terminal) -> Vec<String> {
-    let mut reasons =
-        vec![format!("misses its target by {:.3}\u{b0}", terminal.attitude_error_deg)];
+fn reasons(scenario: &Scenario, trajectory: &Trajectory, missed: Vec<String>) -> Vec<String> {
+    let mut reasons = missed;
     if scenario.weights().attitude == 0.0 {
         reasons.push("nothing asks for the target: weights.attitude is 0".to_owned());
         return reasons;

@@ -9,7 +9,7 @@ use righting_multibody::{Quaternion, State};
 use righting_ocp::{InitialGuess, RungeKutta4, Samples};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::halton::Halton;
-use righting_scenario::scenario::{Maneuver, Scenario};
+use righting_scenario::scenario::Scenario;
 
 use crate::formulation::Coordinates;
 use crate::symmetry::{Mirror, reversed};
@@ -204,7 +204,10 @@ impl InitialGuesses<'_> {
 
     /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
     fn nearest_image(&self, plan: &Trajectory) -> Option<Trajectory> {
-        let Maneuver::Slew(slew) = self.scenario.maneuver() else { return None };
+        let slew = self.scenario.maneuver().slew()?;
+        if !self.scenario.waypoints().is_empty() {
+            return None;
+        }
         let wanted = self.scenario.initial().attitude.conjugate().product(&slew.target);
         let miss = |motion: &Trajectory| {
             let [start, end] = [motion.start(), motion.end()]

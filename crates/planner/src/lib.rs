@@ -43,6 +43,7 @@ mod remedies;
 pub mod replanner;
 mod scaling;
 mod search;
+mod sequence;
 pub mod sparsity;
 mod spin;
 mod symmetry;

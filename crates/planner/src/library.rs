@@ -2,7 +2,7 @@
 //!
 //! Every subfolder is what a solve has written: `solution.json` and `trajectory.csv`. An entry is of
 //! use for a maneuver of the same type by the same arm, that is, with the same joints: as many, with
-//! equal Denavit–Hartenberg rows and an equal mount. Masses and limits may differ.
+//! equal Denavit–Hartenberg rows and an equal mount, and with equal waypoints. Masses and limits may differ.
 //!
 //! The nearest entry is the one with the least √(Δ_goal² + Δ_duration² + Δ_joints² + Δ_mass²), where
 //!
@@ -240,6 +240,7 @@ fn distance(a: &file::Scenario, b: &file::Scenario) -> Option<f64> {
         return None;
     }
     let goal = match a.maneuver.kind {
+        ManeuverType::Slew if a.maneuver.waypoints != b.maneuver.waypoints => return None,
         ManeuverType::Slew => (rotation_vector(a)? - rotation_vector(b)?).norm(),
         ManeuverType::Detumble => {
             let [a, b] = [a, b].map(|scenario| {

@@ -7,7 +7,7 @@ use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
     AttemptRecord, ControlInterval, IterationRecord, Node, Solution, Status, Terminal, Timing,
-    Trajectory, UsedOptimizer, Verification, Versions, objective,
+    Trajectory, UsedOptimizer, Verification, Versions, WaypointRecord, objective,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
@@ -78,6 +78,7 @@ impl Planned {
             constraint_violation: found.solution.constraint_violation,
             duration_s,
             terminal,
+            waypoints: WaypointRecord::reached(scenario, &trajectory),
             timing_s,
             limits: verification.limits(),
             verification,

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use righting_analysis::Impossible;
 use righting_multibody::ModelError;
 use righting_ocp::{Control, OcpError};
-use righting_results::IterationRecord;
 use righting_results::trajectory::Trajectory;
+use righting_results::{AttemptRecord, IterationRecord};
 use righting_scenario::Scenario;
 use righting_scenario::error::ShapeError;
 use righting_verifier::verify;
@@ -18,6 +18,7 @@ use crate::planned::{Ending, Planned};
 use crate::remedies::remedies;
 use crate::scaling::Scaling;
 use crate::search::{Earlier, Search};
+use crate::sequence;
 
 /// How often a maneuver that costs far more than estimated is measured anew.
 const MOST_MEASURINGS: usize = 3;
@@ -153,6 +154,13 @@ impl<'a> Planner<'a> {
             return Err(reason.into());
         }
 
+        let mut leg_attempts = Vec::new();
+        let of_legs = match earlier.is_none() && !scenario.waypoints().is_empty() {
+            true => self.planned_legs(scenario, observer, &mut leg_attempts),
+            false => None,
+        };
+        let earlier = earlier.or(of_legs.as_ref());
+
         let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
         let mut is_late = false;
         let mut watched = |record: &IterationRecord| {
@@ -160,7 +168,9 @@ impl<'a> Planner<'a> {
             if is_late { Control::Stop } else { observer(record) }
         };
         let (mut measured, mut scaling) = Scaling::applied(scenario)?;
-        let is_of_this = earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
+        // The legs one after the other are a plan, but not yet one over all.
+        let is_of_this =
+            of_legs.is_none() && earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
         let mut search = |measured: &Scenario, scaling: &Scaling| {
             let earlier = earlier.as_ref().map(|plan| Earlier { plan, is_of_this });
@@ -182,6 +192,7 @@ impl<'a> Planner<'a> {
             (true, false) => Ending::Interrupted,
         };
         let mut planned = Planned::new(scenario, &scaling, found, ending, &self.program)?;
+        planned.solution.attempts.splice(..0, leg_attempts);
         if self.tries_remedies {
             let threads = self.threads;
             let deadline = started.elapsed() * (1 + REMEDY_SHARE) + self.remedy_time;
@@ -200,6 +211,25 @@ impl<'a> Planner<'a> {
             }));
         }
         Ok(planned)
+    }
+}
+
+impl Planner<'_> {
+    /// A motion to start from over the waypoints of a scenario; none where its legs were not all planned. Adds
+    /// the attempts to plan them.
+    fn planned_legs(
+        &self,
+        scenario: &Scenario,
+        observer: &mut dyn FnMut(&IterationRecord) -> Control,
+        attempts: &mut Vec<AttemptRecord>,
+    ) -> Option<Trajectory> {
+        sequence::of_legs(scenario, |leg| {
+            let mut planner = Planner::new().threads(self.threads).without_remedies();
+            planner.time_limit = self.time_limit;
+            let planned = planner.plan(leg, observer).ok()?;
+            attempts.extend(planned.solution.attempts.iter().cloned());
+            Some(planned)
+        })
     }
 }
 

@@ -265,6 +265,9 @@ fn line(scenario: &Scenario, settings: ReachSettings) -> Result<Line, ReachError
                 resolution: Resolution::Share(settings.resolution / 100.0),
             })
         }
+        (Quantity::Angle, Maneuver::Slew(_)) if !scenario.waypoints().is_empty() => {
+            Err(ReachError::NoAngle("a slew with waypoints"))
+        }
         (Quantity::Angle, Maneuver::Slew(slew)) => {
             let first = slew.angle_rad.abs().to_degrees();
             if first == 0.0 {

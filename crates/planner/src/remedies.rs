@@ -48,7 +48,7 @@ pub(crate) fn remedies(
     let mut duration_s = first_s;
     for _ in 0..MOST_TRIES {
         let rounded_s = two_digits(duration_s);
-        match works(scenario.varied(|file| file.horizon.duration_s.set_longest_s(rounded_s))) {
+        match works(scenario.varied(|file| file.stretch_to_s(rounded_s))) {
             Some(true) => {
                 notes.push(format!("horizon.duration_s {rounded_s} was tried and works"));
                 return notes;
@@ -72,7 +72,9 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
     match (solution.status, scenario.maneuver()) {
         (Status::Interrupted | Status::TimeLimit, _) => false,
         (status, Maneuver::Slew(_)) if status.is_acceptable() => {
-            asks_for_target && solution.terminal.attitude_error > righting_verifier::ATTITUDE_ERROR
+            let on_the_way = solution.waypoints.iter().map(|waypoint| waypoint.attitude_error);
+            let errors = on_the_way.chain([solution.terminal.attitude_error]);
+            asks_for_target && errors.fold(0.0, f64::max) > righting_verifier::ATTITUDE_ERROR
         }
         (status, Maneuver::Slew(_)) => !status.is_acceptable(),
         (_, Maneuver::Detumble) => false,

@@ -28,6 +28,7 @@ const ITERATIONS: u32 = 40;
 /// What is not planned anew.
 const JERKS: &str =
     "links[].jerk_max_deg_s3: maneuvers with limited jerks are not planned anew on the way";
+const WAYPOINTS: &str = "maneuver.waypoints: slews with waypoints are not planned anew on the way";
 
 /// Where a maneuver is.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +74,8 @@ impl Replanner {
     ///
     /// # Errors
     /// [`PlanError::Shape`] when the plan is of other joints or another grid, [`PlanError::Ocp`] when it is
-    /// not near a solution, [`PlanError::NotReplanned`] when jerks are limited.
+    /// not near a solution, [`PlanError::NotReplanned`] when jerks are limited or there are
+    /// waypoints.
     pub fn new(scenario: &Scenario, plan: &Trajectory) -> Result<Self, PlanError> {
         let counts = [
             ("joints of the plan", plan.joints(), scenario.system().joint_count()),
@@ -86,6 +88,9 @@ impl Replanner {
         }
         if scenario.system().limits_jerk() {
             return Err(PlanError::NotReplanned(JERKS));
+        }
+        if !scenario.waypoints().is_empty() {
+            return Err(PlanError::NotReplanned(WAYPOINTS));
         }
         let fixed = match scenario.free_duration() {
             Some(_) => scenario.clone().with_duration(plan.end().time_s),

@@ -7,11 +7,11 @@
 //!
 //! The constant guess is the paper's solve, and keeps the units of the file.
 
-use righting_multibody::{ModelError, State, Units};
+use righting_multibody::{ModelError, Quaternion, State, Units};
 use righting_results::IterationRecord;
 use righting_results::trajectory::{ControlInterval, Node, Trajectory};
 use righting_scenario::file::Formulation;
-use righting_scenario::scenario::{Maneuver, Scenario, Weights};
+use righting_scenario::scenario::{Maneuver, Scenario, Slew, Weights};
 
 use crate::formulation::Coordinates;
 use crate::initial_guess::InitialGuesses;
@@ -41,6 +41,23 @@ const NEAR_LIMIT: f64 = 0.9;
 /// Of a detumble, the weight of the joint rates in that of the base's rate, and the effort's in both.
 const HARD_DETUMBLE_JOINTS: f64 = 1e3;
 const HARD_DETUMBLE_EFFORT: f64 = 0.01;
+
+/// What the errors at waypoints are weighed by, in a scenario that is measured by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WaypointWeights {
+    /// Of the vector part of the attitude error.
+    pub(crate) attitude: f64,
+    /// Of joint rates and accelerations.
+    pub(crate) joint_rate: f64,
+}
+
+impl WaypointWeights {
+    pub(crate) fn of(measured: &Scenario) -> Self {
+        let turn_rad =
+            measured.maneuver().slew().map_or(0.0, |slew| largest_turn_rad(measured, slew));
+        Self { attitude: hard_attitude(turn_rad), joint_rate: HARD_RATE }
+    }
+}
 
 /// What a maneuver is measured by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,9 +112,14 @@ impl Scaling {
         if !scenario.is_end_hard() || found.is_interrupted || !solution.status.is_success() {
             return Ok(None);
         }
-        let end = solution.states.row(solution.states.len() - 1);
-        let reached = found.coordinates.free_floating_state(end).attitude;
-        let miss = reached.error_vector(&slew.target).norm();
+        let steps = solution.states.len() - 1;
+        let missed = |node: usize, target: &Quaternion<f64>| {
+            let state = found.coordinates.free_floating_state(solution.states.row(node));
+            state.attitude.error_vector(target).norm()
+        };
+        let waypoints = measured.waypoints().iter();
+        let on_the_way = waypoints.map(|stop| missed(stop.nodes(steps)[0], &stop.target));
+        let miss = on_the_way.fold(missed(steps, &slew.target), f64::max);
         if miss < HARD_MISS || solution.objective < DEAR || is_at_limits(measured, found) {
             return Ok(None);
         }
@@ -196,8 +218,7 @@ fn hard(measured: &Scenario) -> Weights {
     let given = measured.weights();
     match measured.maneuver() {
         Maneuver::Slew(slew) => Weights {
-            attitude: HARD_ATTITUDE
-                .max(HARD_SMALL_ATTITUDE / (0.5 * slew.angle_rad.abs().max(SMALLEST_SLEW_RAD))),
+            attitude: hard_attitude(largest_turn_rad(measured, slew)),
             angular_rate: HARD_RATE,
             joint_rate: HARD_RATE,
             ..given
@@ -214,8 +235,30 @@ fn hard(measured: &Scenario) -> Weights {
     }
 }
 
-/// About what ∫‖q̈‖² dt over the reference interval a slew takes at least, from motions that make it.
+/// The weight of the attitude error after a slew by this angle.
+fn hard_attitude(turn_rad: f64) -> f64 {
+    HARD_ATTITUDE.max(HARD_SMALL_ATTITUDE / (0.5 * turn_rad.max(SMALLEST_SLEW_RAD)))
+}
+
+/// The largest angle of a slew's legs, rad.
+fn largest_turn_rad(measured: &Scenario, slew: &Slew) -> f64 {
+    match measured.waypoints() {
+        [] => slew.angle_rad.abs(),
+        _ => measured.legs().iter().map(|leg| leg.angle_rad).fold(0.0, f64::max),
+    }
+}
+
+/// About what ∫‖q̈‖² dt over the reference interval a slew takes at least, from motions that make its legs.
 fn effort(measured: &Scenario) -> f64 {
+    let legs = measured.legs().into_iter().filter(|leg| leg.end > leg.start);
+    match measured.waypoints() {
+        [] => effort_of_turn(measured),
+        _ => legs.map(|leg| effort_of_turn(&measured.clone().with_leg(&leg))).sum(),
+    }
+}
+
+/// The same of a slew without waypoints.
+fn effort_of_turn(measured: &Scenario) -> f64 {
     let coordinates = Coordinates::new(measured, Formulation::Reduced);
     let initial = coordinates.initial(measured.initial());
     let guesses = InitialGuesses {

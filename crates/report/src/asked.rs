@@ -45,7 +45,12 @@ fn phrase_with(scenario: &Scenario, chosen_s: Option<f64>, number: fn(f64) -> St
             let (axis, angle_deg) =
                 scenario.slew_axis_and_angle_deg().unwrap_or(([f64::NAN; 3], f64::NAN));
             let (axis, angle) = (triple(axis), number(angle_deg));
-            format!("slew of {angle}° about {axis} in {duration}")
+            let way = match maneuver.waypoints.len() {
+                0 => String::new(),
+                1 => " by way of a waypoint".to_owned(),
+                waypoints => format!(" by way of {waypoints} waypoints"),
+            };
+            format!("slew of {angle}° about {axis}{way} in {duration}")
         }
         ManeuverType::Detumble => {
             let rate = triple(scenario.initial.angular_rate_deg_s.unwrap_or_default());
@@ -54,12 +59,39 @@ fn phrase_with(scenario: &Scenario, chosen_s: Option<f64>, number: fn(f64) -> St
     }
 }
 
-/// The attitude a slew is to reach, body → inertial; `None` for a detumble.
-pub(crate) fn target(scenario: &Scenario) -> Option<UnitQuaternion<f64>> {
+/// An attitude that a slew is to reach, body → inertial, and the time until which it is the one asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Target {
+    pub attitude: UnitQuaternion<f64>,
+    pub until_s: f64,
+}
+
+/// The attitudes that a slew is to reach, the last one at its end; none for a detumble.
+pub(crate) fn targets(scenario: &Scenario) -> Vec<Target> {
     let start = unit(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]));
-    let (axis, angle_deg) = scenario.slew_axis_and_angle_deg()?;
-    let axis = Unit::try_new(Vector3::from(axis), f64::MIN_POSITIVE)?;
-    Some(start * UnitQuaternion::from_axis_angle(&axis, angle_deg.to_radians()))
+    let turned = |axis: [f64; 3], angle_deg: f64| {
+        let axis = Unit::try_new(Vector3::from(axis), f64::MIN_POSITIVE)?;
+        Some(start * UnitQuaternion::from_axis_angle(&axis, angle_deg.to_radians()))
+    };
+    let end = scenario.slew_axis_and_angle_deg().and_then(|(axis, angle)| turned(axis, angle));
+    let Some(end) = end else { return Vec::new() };
+    let mut until_s = 0.0;
+    let waypoints = scenario.maneuver.waypoints.iter().filter_map(|waypoint| {
+        until_s += waypoint.duration_s.unwrap_or(0.0) + waypoint.dwell_s.unwrap_or(0.0);
+        let attitude = match waypoint.target_attitude {
+            Some(wxyz) => unit(wxyz),
+            None => turned(waypoint.axis?, waypoint.angle_deg?)?,
+        };
+        Some(Target { attitude, until_s })
+    });
+    waypoints.chain([Target { attitude: end, until_s: f64::INFINITY }]).collect()
+}
+
+/// The one that is asked for at a time.
+pub(crate) fn target_at(targets: &[Target], time_s: f64) -> Option<UnitQuaternion<f64>> {
+    let rounding_s = 1e-9 * time_s;
+    let next = targets.iter().find(|target| time_s <= target.until_s + rounding_s);
+    next.map(|target| target.attitude)
 }
 
 /// The rotation of a scalar-first quaternion of any length.

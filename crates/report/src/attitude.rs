@@ -3,10 +3,11 @@
 use nalgebra::UnitQuaternion;
 use righting_results::{Node, Solution, Trajectory};
 
+use crate::asked::{self, Target};
 use crate::figure::{Figure, heading};
 use crate::number::drawn;
 use crate::panel::{Curve, Panel, Rule, RuleKind};
-use crate::{asked, style};
+use crate::style;
 
 const PANEL_SIZE: [f64; 2] = [620.0, 150.0];
 /// Below these heights a curve counts as constant.
@@ -16,16 +17,17 @@ const LEAST_RATE_SPAN_DEG_S: f64 = 1e-4;
 /// The figure of the base's attitude and angular rate, as an SVG document.
 ///
 /// A slew shows the rotation vector from the start (body axes, degrees) on its way to the target
-/// and the angle still to turn; a detumble, which may turn through several revolutions, shows the
+/// and the angle still to turn, by way of its waypoints to the next of them; a detumble, which may turn through several revolutions, shows the
 /// attitude quaternion. Both show the angular rate by components (body axes) and its magnitude.
 pub fn attitude_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     let nodes = trajectory.nodes();
-    let panels = match asked::target(&solution.scenario) {
-        Some(target) => {
-            let [rotation, error] = slew_panels(nodes, target);
+    let targets = asked::targets(&solution.scenario);
+    let panels = match targets.is_empty() {
+        false => {
+            let [rotation, error] = slew_panels(nodes, &targets);
             vec![rotation, error, rate_panel(nodes)]
         }
-        None => {
+        true => {
             vec![
                 quaternion_panel(nodes),
                 rate_panel(nodes),
@@ -45,25 +47,30 @@ pub fn attitude_svg(solution: &Solution, trajectory: &Trajectory) -> String {
     figure.render()
 }
 
-pub(crate) fn slew_panels(nodes: &[Node], target: UnitQuaternion<f64>) -> [Panel; 2] {
+pub(crate) fn slew_panels(nodes: &[Node], targets: &[Target]) -> [Panel; 2] {
     let start = asked::unit(nodes[0].attitude);
     let turned: Vec<_> =
         nodes.iter().map(|n| rotation_deg(start, asked::unit(n.attitude))).collect();
-    let asked = rotation_deg(start, target);
+    let asked: Vec<_> = targets.iter().map(|target| rotation_deg(start, target.attitude)).collect();
     let colors = [style::X, style::Y, style::Z];
     let rotation = Panel {
         heading: "Rotation of the base from its start, body axes (dotted: target)".to_owned(),
         axis_label: "Rotation [deg]",
         note: String::new(),
         curves: components(["x", "y", "z"], |i| turned.iter().map(|v| v[i]).collect()),
-        rules: (0..3)
-            .map(|i| Rule { kind: RuleKind::Target(colors[i]), value: asked[i] })
+        rules: asked
+            .iter()
+            .flat_map(|asked| colors.into_iter().zip(asked))
+            .map(|(color, &value)| Rule { kind: RuleKind::Target(color), value })
             .collect(),
         least_span: LEAST_ANGLE_SPAN_DEG,
         ..Panel::default()
     };
-    let errors: Vec<f64> =
-        nodes.iter().map(|n| asked::unit(n.attitude).angle_to(&target).to_degrees()).collect();
+    let error_deg = |node: &Node| {
+        let target = asked::target_at(targets, node.time_s)?;
+        Some(asked::unit(node.attitude).angle_to(&target).to_degrees())
+    };
+    let errors: Vec<f64> = nodes.iter().filter_map(error_deg).collect();
     let note = format!("{}° at the end", drawn(*errors.last().unwrap_or(&f64::NAN)));
     let error = Panel {
         heading: "Angle to the target attitude".to_owned(),

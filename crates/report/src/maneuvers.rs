@@ -43,9 +43,10 @@ pub fn maneuvers_svg(title: &str, maneuvers: &[(String, Solution, Trajectory)]) 
 
 fn column(name: &str, scenario: &Scenario, trajectory: &Trajectory) -> Vec<Panel> {
     let nodes = trajectory.nodes();
-    let attitude = match (scenario.maneuver.kind, asked::target(scenario)) {
-        (ManeuverType::Slew, Some(target)) => {
-            let [rotation, _] = slew_panels(nodes, target);
+    let targets = asked::targets(scenario);
+    let attitude = match scenario.maneuver.kind {
+        ManeuverType::Slew if !targets.is_empty() => {
+            let [rotation, _] = slew_panels(nodes, &targets);
             Panel { heading: format!("{name}: base [deg]"), ..rotation }
         }
         _ => {

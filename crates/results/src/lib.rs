@@ -23,6 +23,7 @@ pub use finite_or_null::FiniteOrNull;
 pub use outcome::objective;
 pub use solution::{
     AttemptRecord, IterationRecord, Solution, Status, Terminal, Timing, UsedOptimizer, Versions,
+    WaypointRecord,
 };
 pub use trajectory::{ControlInterval, Node, Trajectory};
 pub use verification::{Check, LimitRecord, Sense, Verification};

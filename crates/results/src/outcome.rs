@@ -1,9 +1,9 @@
 //! What a maneuver reached, and what it cost.
 
-use righting_multibody::State;
+use righting_multibody::{Quaternion, State};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
-use crate::solution::Terminal;
+use crate::solution::{Terminal, WaypointRecord};
 use crate::trajectory::{ControlInterval, Trajectory};
 
 impl Terminal {
@@ -35,6 +35,41 @@ impl Terminal {
     pub fn reduction_percent(&self, scenario: &Scenario) -> f64 {
         let stopped_deg_s = scenario.stopped_rate_rad_s().to_degrees();
         100.0 * (1.0 - self.angular_rate_deg_s / stopped_deg_s)
+    }
+}
+
+impl WaypointRecord {
+    /// What the nodes of a trajectory reach at each waypoint of its scenario; one that has fewer nodes than the
+    /// scenario reaches nothing.
+    pub fn reached(scenario: &Scenario, trajectory: &Trajectory) -> Vec<Self> {
+        let horizon = scenario.horizon();
+        let waypoints = scenario.waypoints().iter();
+        waypoints
+            .map(|waypoint| {
+                let [arrival, departure] = waypoint.nodes(horizon.steps);
+                let nodes = trajectory.nodes().get(arrival..=departure).unwrap_or_default();
+                let times = Self {
+                    arrival_s: horizon.time_s(arrival),
+                    departure_s: horizon.time_s(departure),
+                    ..Self::default()
+                };
+                nodes.iter().fold(times, |worst, node| worst.with(&node.state(), &waypoint.target))
+            })
+            .collect()
+    }
+
+    fn with(self, state: &State<f64>, target: &Quaternion<f64>) -> Self {
+        let attitude = state.attitude.normalized();
+        let joint_rate = sum_of_squares(&state.joint_rates).sqrt();
+        let angle_deg = attitude.angle_to(target).to_degrees();
+        let rate_deg_s = state.angular_rate.norm().to_degrees();
+        Self {
+            attitude_error: self.attitude_error.max(attitude.error_vector(target).norm()),
+            attitude_error_deg: self.attitude_error_deg.max(angle_deg),
+            angular_rate_deg_s: self.angular_rate_deg_s.max(rate_deg_s),
+            joint_rate_deg_s: self.joint_rate_deg_s.max(joint_rate.to_degrees()),
+            ..self
+        }
     }
 }
 

@@ -45,6 +45,9 @@ pub struct Solution {
     pub duration_s: Option<f64>,
     /// What the last node reached.
     pub terminal: Terminal,
+    /// What was reached at each waypoint, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waypoints: Vec<WaypointRecord>,
     /// Wall-clock times.
     pub timing_s: Timing,
     /// Outcome of the independent check.
@@ -162,6 +165,27 @@ impl Status {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Terminal {
     /// Norm of the vector part of the attitude error quaternion; 0 for a detumble.
+    #[serde(with = "FiniteOrNull")]
+    pub attitude_error: f64,
+    /// Angle of the attitude error, deg.
+    #[serde(with = "FiniteOrNull")]
+    pub attitude_error_deg: f64,
+    /// Norm of the base's angular rate, deg/s.
+    #[serde(with = "FiniteOrNull")]
+    pub angular_rate_deg_s: f64,
+    /// Norm of the joint rates, all joints together, deg/s.
+    #[serde(with = "FiniteOrNull")]
+    pub joint_rate_deg_s: f64,
+}
+
+/// What was reached at a waypoint: from its arrival to its departure the worst of each, at the nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WaypointRecord {
+    /// When it is reached, s.
+    pub arrival_s: f64,
+    /// When it is left, s.
+    pub departure_s: f64,
+    /// Norm of the vector part of the attitude error quaternion.
     #[serde(with = "FiniteOrNull")]
     pub attitude_error: f64,
     /// Angle of the attitude error, deg.

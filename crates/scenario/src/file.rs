@@ -10,6 +10,7 @@ mod joint_row;
 mod pointing;
 mod shapes;
 mod system_options;
+mod waypoint;
 
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
@@ -22,6 +23,7 @@ pub use joint_row::{JointPlace, JointRow};
 pub use pointing::{DirectionTable, Pointing};
 pub use shapes::{Capsule, Cuboid, KeepOut, Shape, Sphere};
 pub use system_options::SystemOptions;
+pub use waypoint::Waypoint;
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -107,6 +109,9 @@ pub struct Maneuver {
     /// only, instead of `axis` and `angle_deg`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_attitude: Option<[f64; 4]>,
+    /// Attitudes to reach on the way, in order. For a slew only; one without a target of its own ends in the last.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waypoints: Vec<Waypoint>,
 }
 
 /// The kinds of maneuver.
@@ -604,8 +609,16 @@ fn require_slew_target(schema: &mut schemars::Schema) {
             },
             {
                 "properties": {
+                    "type": { "const": "slew" },
+                    "axis": false, "angle_deg": false, "target_attitude": false,
+                    "waypoints": { "minItems": 1 }
+                },
+                "required": ["waypoints"]
+            },
+            {
+                "properties": {
                     "type": { "const": "detumble" },
-                    "axis": false, "angle_deg": false, "target_attitude": false
+                    "axis": false, "angle_deg": false, "target_attitude": false, "waypoints": false
                 }
             }
         ]),

@@ -63,6 +63,7 @@ pub mod system_or_scenario;
 mod system_reference;
 mod units;
 mod urdf;
+mod waypoints;
 mod weights;
 pub mod wheels;
 
@@ -80,4 +81,5 @@ pub use system_description::SystemDescription;
 pub use system_file::SystemFile;
 pub use system_or_scenario::SystemOrScenario;
 pub use urdf::{ImportedSystem, import_urdf};
+pub use waypoints::{Leg, Waypoint};
 pub use wheels::WheelArray;

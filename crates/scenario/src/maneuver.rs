@@ -42,58 +42,80 @@ impl Maneuver {
         place: &Location,
         notes: &mut Vec<String>,
     ) -> Result<Maneuver, Error> {
-        let (axis_place, angle_place) = (place.key("axis"), place.key("angle_deg"));
-        let target_place = place.key("target_attitude");
+        let file::Maneuver { axis, angle_deg, target_attitude, waypoints, .. } = maneuver;
         match maneuver.kind {
-            file::ManeuverType::Slew => match maneuver.target_attitude {
-                Some(wxyz) => {
-                    let given =
-                        [maneuver.axis.map(|_| "axis"), maneuver.angle_deg.map(|_| "angle_deg")];
-                    let beside: Vec<&str> = given.into_iter().flatten().collect();
-                    if !beside.is_empty() {
-                        return Err(target_place.refuse(
-                            format_args!("an attitude beside {}", beside.join(" and ")),
-                            "either target_attitude, or axis and angle_deg",
-                        ));
-                    }
-                    let target = unit_quaternion(wxyz, &target_place, notes)?;
-                    let turn = initial.attitude.conjugate().product(&target);
-                    let (axis, angle_rad) = turn.to_axis_angle();
-                    Ok(Maneuver::Slew(Slew { axis, angle_rad, target }))
-                }
-                None => turned(maneuver, initial, &axis_place, &angle_place),
-            },
-            file::ManeuverType::Detumble => {
-                if maneuver.axis.is_some() {
-                    return Err(axis_place.refuse("an axis", "none for a detumble"));
-                }
-                if maneuver.angle_deg.is_some() {
-                    return Err(angle_place.refuse("an angle", "none for a detumble"));
-                }
-                if maneuver.target_attitude.is_some() {
-                    return Err(target_place.refuse("an attitude", "none for a detumble"));
-                }
-                Ok(Maneuver::Detumble)
+            file::ManeuverType::Slew => {
+                let target = (axis, angle_deg, target_attitude);
+                slew_to(target, initial, place, notes).map(Maneuver::Slew)
             }
+            file::ManeuverType::Detumble => {
+                let given = [
+                    ("axis", "an axis", axis.is_some()),
+                    ("angle_deg", "an angle", angle_deg.is_some()),
+                    ("target_attitude", "an attitude", target_attitude.is_some()),
+                    ("waypoints", "waypoints", !waypoints.is_empty()),
+                ];
+                match given.into_iter().find(|(.., is_given)| *is_given) {
+                    Some((name, found, _)) => {
+                        Err(place.key(name).refuse(found, "none for a detumble"))
+                    }
+                    None => Ok(Maneuver::Detumble),
+                }
+            }
+        }
+    }
+
+    /// What to turn to, of a slew.
+    pub fn slew(&self) -> Option<&Slew> {
+        match self {
+            Self::Slew(slew) => Some(slew),
+            Self::Detumble => None,
         }
     }
 }
 
+/// Axis, angle in degrees and attitude, of which a file gives the first two or the last.
+pub(crate) type Target<'f> = (&'f Option<[f64; 3]>, &'f Option<f64>, &'f Option<[f64; 4]>);
+
+/// Checks a target that stands in the object at `place`.
+pub(crate) fn slew_to(
+    (axis, angle_deg, target_attitude): Target<'_>,
+    initial: &Initial,
+    place: &Location,
+    notes: &mut Vec<String>,
+) -> Result<Slew, Error> {
+    let Some(wxyz) = target_attitude else {
+        return turned((*axis, *angle_deg), initial, &place.key("axis"), &place.key("angle_deg"));
+    };
+    let target_place = place.key("target_attitude");
+    let given = [axis.map(|_| "axis"), angle_deg.map(|_| "angle_deg")];
+    let beside: Vec<&str> = given.into_iter().flatten().collect();
+    if !beside.is_empty() {
+        return Err(target_place.refuse(
+            format_args!("an attitude beside {}", beside.join(" and ")),
+            "either target_attitude, or axis and angle_deg",
+        ));
+    }
+    let target = unit_quaternion(*wxyz, &target_place, notes)?;
+    let turn = initial.attitude.conjugate().product(&target);
+    let (axis, angle_rad) = turn.to_axis_angle();
+    Ok(Slew { axis, angle_rad, target })
+}
+
 /// A slew by an angle about an axis.
 fn turned(
-    maneuver: &file::Maneuver,
+    (axis, angle_deg): (Option<[f64; 3]>, Option<f64>),
     initial: &Initial,
     axis_place: &Location,
     angle_place: &Location,
-) -> Result<Maneuver, Error> {
-    let axis = maneuver.axis.ok_or_else(|| {
-        axis_place.missing(match maneuver.angle_deg {
+) -> Result<Slew, Error> {
+    let axis = axis.ok_or_else(|| {
+        axis_place.missing(match angle_deg {
             Some(_) => "the axis of the slew",
             None => "the axis of the slew, with angle_deg, or target_attitude instead of both",
         })
     })?;
-    let angle_deg =
-        maneuver.angle_deg.ok_or_else(|| angle_place.missing("the angle of the slew"))?;
+    let angle_deg = angle_deg.ok_or_else(|| angle_place.missing("the angle of the slew"))?;
     axis_place.all_within(axis, AXIS)?;
     let axis = Vector3::from(axis).try_normalize(SHORTEST_AXIS).ok_or_else(|| {
         let [x, y, z] = axis.map(Number);
@@ -101,7 +123,7 @@ fn turned(
     })?;
     let angle_rad = angle_place.within(angle_deg, SLEW_ANGLE_DEG)?.to_radians();
     let turn = Quaternion::from_axis_angle(&axis, angle_rad);
-    Ok(Maneuver::Slew(Slew { axis, angle_rad, target: initial.attitude.product(&turn) }))
+    Ok(Slew { axis, angle_rad, target: initial.attitude.product(&turn) })
 }
 
 impl file::Scenario {

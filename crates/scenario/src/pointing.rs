@@ -9,6 +9,7 @@ use crate::initial::Initial;
 use crate::json::{Bounds, Location, Number};
 use crate::maneuver::Maneuver;
 use crate::rounding::COMPUTED;
+use crate::waypoints::Waypoint;
 
 const COMPONENT: Bounds = Bounds::Between(-1e12, 1e12);
 /// Shorter than this, the square of a vector is lost.
@@ -214,11 +215,11 @@ impl Pointing {
     }
 }
 
-/// Checks the cones that were read from `place`, and that the maneuver starts and is asked to end on their
-/// right side. Where a direction moves in a maneuver whose duration is free, nobody knows yet where it is in the end.
+/// Checks the cones that were read from `place`, and that the maneuver starts, and is asked to pass and to end, on
+/// their right side. Where a direction moves in a maneuver whose duration is free, nobody knows yet where it is in the end.
 pub(crate) fn pointing(
     given: &[file::Pointing],
-    (initial, maneuver): (&Initial, &Maneuver),
+    (initial, maneuver, waypoints): (&Initial, &Maneuver, &[Waypoint]),
     (longest_s, is_duration_free): (f64, bool),
     place: &Location,
 ) -> Result<Vec<Pointing>, Error> {
@@ -234,6 +235,11 @@ pub(crate) fn pointing(
         let is_end_known = pointing.direction.is_fixed() || !is_duration_free;
         if let (Maneuver::Slew(slew), true) = (maneuver, is_end_known) {
             pointing.check((&slew.target, longest_s), "a target", &place)?;
+        }
+        for waypoint in waypoints {
+            for share in [waypoint.arrival, waypoint.departure] {
+                pointing.check((&waypoint.target, share * longest_s), "a waypoint", &place)?;
+            }
         }
         checked.push(pointing);
     }

@@ -18,6 +18,7 @@ use crate::start_limits::widen_to_start;
 use crate::start_loads;
 use crate::system_description::SystemDescription;
 use crate::system_reference::resolve_system;
+use crate::waypoints::{Waypoint, check_company, end_in_last, waypoints};
 
 pub use crate::horizon::{FreeDuration, Horizon, LONGEST_S, MAX_STEPS};
 pub use crate::maneuver::{Maneuver, Slew};
@@ -35,6 +36,7 @@ pub struct Scenario {
     pub(crate) system: SystemDescription,
     pub(crate) initial: Initial,
     pub(crate) maneuver: Maneuver,
+    pub(crate) waypoints: Vec<Waypoint>,
     pub(crate) horizon: Horizon,
     pub(crate) free_duration: Option<FreeDuration>,
     pub(crate) weights: Weights,
@@ -100,6 +102,7 @@ impl Scenario {
             start_loads::check((&system, file), &initial, &rate_place, &system_place)?;
         }
         let maneuver_place = place.key("maneuver");
+        end_in_last(&mut scenario.maneuver);
         let maneuver =
             Maneuver::from_file(&scenario.maneuver, &initial, &maneuver_place, &mut notes)?;
         let momentum_note =
@@ -107,9 +110,20 @@ impl Scenario {
         notes.extend(momentum_note);
         let (horizon, free_duration) =
             Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
+        let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
+        let waypoints = match maneuver.slew().filter(|_| !scenario.maneuver.waypoints.is_empty()) {
+            Some(slew) => {
+                let is_free = free_duration.is_some();
+                check_company(is_free, solver, place)?;
+                let given = &mut scenario.maneuver.waypoints;
+                let place = maneuver_place.key("waypoints");
+                waypoints(given, (&initial, slew), horizon, &place, &mut notes)?
+            }
+            None => Vec::new(),
+        };
         let pointing = pointing(
             &scenario.pointing,
-            (&initial, &maneuver),
+            (&initial, &maneuver, &waypoints),
             (horizon.duration_s, free_duration.is_some()),
             &place.key("pointing"),
         )?;
@@ -119,7 +133,6 @@ impl Scenario {
             free_duration.is_some(),
             &place.key("weights"),
         )?;
-        let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
             Some(hard) => hard,
             None => !solver.is_paper() && !scenario.weights.has_end(),
@@ -164,6 +177,7 @@ impl Scenario {
             system,
             initial,
             maneuver,
+            waypoints,
             horizon,
             free_duration,
             weights,
@@ -195,6 +209,11 @@ impl Scenario {
     /// What to do.
     pub fn maneuver(&self) -> &Maneuver {
         &self.maneuver
+    }
+
+    /// The attitudes that a slew reaches on the way.
+    pub fn waypoints(&self) -> &[Waypoint] {
+        &self.waypoints
     }
 
     /// Duration and grid; the longest duration where the plan chooses it.

@@ -42,6 +42,7 @@ fn checked(mut system: file::System) -> Result<Scenario, Error> {
             axis: Some([1.0, 0.0, 0.0]),
             angle_deg: Some(10.0),
             target_attitude: None,
+            waypoints: Vec::new(),
         },
         horizon: file::Horizon { duration_s: file::Duration::Given(60.0), steps: 60.0 },
         weights: file::Weights::default(),

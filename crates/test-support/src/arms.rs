@@ -142,6 +142,7 @@ pub(crate) fn at_rest(system: file::System) -> Scenario {
             axis: Some([0.0, 0.0, 1.0]),
             angle_deg: Some(10.0),
             target_attitude: None,
+            waypoints: Vec::new(),
         },
         horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
         weights: file::Weights::default(),

@@ -19,7 +19,7 @@ use righting_multibody::{State, System};
 use righting_results::solution::SCHEMA;
 use righting_results::{
     AttemptRecord, ControlInterval, Node, Solution, Status, Terminal, Timing, Trajectory, Versions,
-    objective,
+    WaypointRecord, objective,
 };
 use righting_scenario::{Scenario, file};
 use righting_verifier::verify;
@@ -208,6 +208,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         constraint_violation: f64::NAN,
         duration_s: None,
         terminal: Terminal::reached(scenario, trajectory),
+        waypoints: WaypointRecord::reached(scenario, trajectory),
         timing_s: Timing::default(),
         limits: verification.limits(),
         verification,

@@ -43,7 +43,7 @@ impl Goal {
     pub fn reached(&self, end: &State<'_>) -> Terminal {
         let (attitude_error, attitude_error_deg) = match self {
             Self::Attitude(target) => {
-                let error = target.conjugate().into_inner() * end.attitude.normalize();
+                let error = attitude_error(target, end);
                 let vector = error.imag().norm();
                 (vector, 2.0 * vector.atan2(error.scalar().abs()).to_degrees())
             }
@@ -57,6 +57,11 @@ impl Goal {
             joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
         }
     }
+}
+
+/// The quaternion from an attitude to that of a state.
+pub(super) fn attitude_error(target: &UnitQuaternion<f64>, state: &State<'_>) -> Quaternion<f64> {
+    target.conjugate().into_inner() * state.attitude.normalize()
 }
 
 /// The base's rate, body axes, once the joints have stopped where they are in the state `start`: angular

@@ -80,6 +80,7 @@ mod requirements;
 mod simulation;
 mod tolerances;
 mod verify;
+mod waypoints;
 
 pub use directory::{Verified, verify_directory};
 pub use dormand_prince::DormandPrince;

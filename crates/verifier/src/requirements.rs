@@ -13,6 +13,7 @@ use crate::motion_bound::Reach;
 use crate::pointing::Cone;
 use crate::posture::EndPosture;
 use crate::tolerances::{Measures, Tolerances};
+use crate::waypoints::{Waypoint, waypoints};
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]
@@ -22,6 +23,7 @@ pub(super) struct Requirements {
     /// State vector at the start: the body frame's origin at the inertial one, the system's at rest.
     pub start: Vec<f64>,
     pub goal: Goal,
+    pub waypoints: Vec<Waypoint>,
     pub end_posture: EndPosture,
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
@@ -67,6 +69,11 @@ impl Requirements {
             measures: Measures::new(size_m(system), model.total_mass(), duration_s),
             is_end_hard: file.end.as_ref().and_then(|end| end.hard).unwrap_or(false),
             goal: Goal::new(&file.maneuver, &model, &State::from_slice(&start)),
+            waypoints: {
+                let attitude = State::from_slice(&start).attitude;
+                let attitude = UnitQuaternion::from_quaternion(attitude);
+                waypoints(&file.maneuver, &attitude, scenario.horizon())
+            },
             end_posture: EndPosture::new(file.end.as_ref()),
             horizon: scenario.horizon(),
             joint_limits: system.joints().iter().map(JointLimits::new).collect(),

@@ -16,6 +16,7 @@ use crate::pointing;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 use crate::tolerances::{Measures, Tolerances, at_rest_deg_s};
+use crate::waypoints;
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;
@@ -53,6 +54,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     jerk::check(&asked, trajectory, &mut ledger);
     loads::check(&asked, trajectory, &simulation, &mut ledger);
     pointing::check(&asked, trajectory, &simulation, &mut ledger);
+    waypoints::check(&asked, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     ledger.finish()
 }
@@ -70,6 +72,7 @@ pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verificati
         return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
     }
     let simulation = Simulation::new(&asked.model, asked.horizon, &asked.start, plan.intervals());
+    waypoints::check(&asked, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     (asked.goal.reached(&simulation.end()), ledger.finish())
 }

@@ -157,6 +157,7 @@ proptest! {
             axis: None,
             angle_deg: None,
             target_attitude: None,
+            waypoints: Vec::new(),
         };
         resolved.horizon = file::Horizon { duration_s: file::Duration::Given(0.2), steps: 4.0 };
         resolved.collision.clearance_m = Some(clearance_m);

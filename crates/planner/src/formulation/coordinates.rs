@@ -149,6 +149,11 @@ impl Coordinates {
         self.has_jerk.then(|| self.motion_end() + joint)
     }
 
+    /// The accelerations among the states: none where they are no states.
+    pub(crate) fn acceleration_states<'x, T>(&self, x: &'x [T]) -> &'x [T] {
+        &x[self.motion_end()..self.joints_end()]
+    }
+
     /// Takes the joint angles and rates of one state over into another, and accelerations where they are.
     pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
         let joints = self.joint_states();
@@ -349,7 +354,7 @@ impl Coordinates {
     /// none.
     pub(crate) fn accelerations<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         match self.has_jerk {
-            true => self.of_moving(&x[self.motion_end()..self.joints_end()]),
+            true => self.of_moving(self.acceleration_states(x)),
             false => self.of_moving(u),
         }
     }

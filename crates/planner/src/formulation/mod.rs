@@ -6,7 +6,7 @@
 //!      their side of cones
 //! ```
 //!
-//! (the paper's equations 6–14), w_T T where the duration T is free, q_N as far as the scenario gives the
+//! (the paper's equations 6–14), the errors at waypoints, w_T T where the duration T is free, q_N as far as the scenario gives the
 //! posture at the end, and q̈_0 = q̈_N = 0 where jerks are limited. The desired position, velocity, rates and joint angles are those of the system at rest
 //! where it starts, or ends. Distances of capsules are squared: the feasible set is the same, and the square is
 //! smooth where two links meet. Those of boxes are signed, so that they say how to get out.
@@ -19,6 +19,7 @@ mod loads;
 mod stage_limits;
 #[cfg(test)]
 mod tests;
+mod waypoints;
 
 use righting_multibody::{Quaternion, State};
 use righting_ocp::{ComponentBounds, ControlProblem, Expr};
@@ -32,6 +33,7 @@ pub(crate) use loads::Loads;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use stage_limits::StageLimits;
+use waypoints::Waypoints;
 
 /// A scenario as an optimal control problem: what [`Planner`](crate::Planner) transcribes and solves.
 pub struct FormulatedManeuver {
@@ -103,11 +105,13 @@ impl FormulatedManeuver {
         let free: Vec<usize> = coordinates.duration().into_iter().collect();
         let longest = weights.time * scenario.horizon().duration_s;
         let running = coordinates.clone();
+        let waypoints = Waypoints::new(scenario);
         let end = EndConditions::new(scenario, &coordinates);
         let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
             .free_initial_states(&free)
             .running_cost(move |x, u, step| {
                 effort(&running, x, u, step.length) * running.duration_share(x) * control
+                    + waypoints.cost(&running, x, step)
             })
             .terminal_cost(move |x| {
                 let end = goal.cost(&terminal.free_floating_state(x), &weights);

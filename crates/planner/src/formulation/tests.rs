@@ -2,7 +2,7 @@ use std::path::Path;
 
 use righting_ocp::{DerivativeErrors, Grid, MultipleShooting, StageFunctions};
 use righting_scenario::file::{
-    DirectionTable, Duration, DurationRange, End, Pointing, SystemReference,
+    DirectionTable, Duration, DurationRange, End, Pointing, SystemReference, Waypoint,
 };
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
@@ -135,6 +135,26 @@ fn derivatives_of_jerk_limited_maneuvers_agree_with_finite_differences() {
         });
         check_scenario(name, &scenario, 5, false);
         check_scenario(name, &scenario, 5, true);
+    }
+}
+
+/// A waypoint that is held and one that is passed, with accelerations as states.
+#[test]
+fn derivatives_of_waypoints_agree_with_finite_differences() {
+    let waypoint = |angle_deg: f64, rest: bool| Waypoint {
+        axis: Some([0.0, 0.6, 0.8]),
+        angle_deg: Some(angle_deg),
+        dwell_s: Some(10.0),
+        rest: Some(rest),
+        ..Waypoint::default()
+    };
+    for name in ["slew_4dof", "slew_2dof_full"] {
+        let scenario = varied(&read(name), |file| {
+            file.maneuver.waypoints = vec![waypoint(10.0, true), waypoint(-5.0, false)];
+            let SystemReference::Inline(system) = &mut file.system else { unreachable!() };
+            system.links[1].jerk_max_deg_s3 = Some(2.0);
+        });
+        check_scenario(name, &scenario, 12, false);
     }
 }
 

@@ -128,6 +128,32 @@ impl InitialGuesses<'_> {
         self.turning_about(guess, &axis, angle_rad)
     }
 
+    /// The same joint motion while the base turns evenly along every leg of a slew with waypoints, from rest to
+    /// rest, and rests between them.
+    pub(crate) fn turning_along_legs(&self, mut guess: InitialGuess) -> InitialGuess {
+        let legs = self.scenario.legs();
+        for node in 1..=self.steps {
+            let share = node as f64 / self.steps as f64;
+            let leg = legs.iter().find(|leg| share < leg.end).or(legs.last());
+            let Some(leg) = leg else { break };
+            let (axis, angle_rad) = leg.from.conjugate().product(&leg.target).to_axis_angle();
+            let of_leg = ((share - leg.start) / (leg.end - leg.start)).clamp(0.0, 1.0);
+            let turned = 0.5 * (1.0 - (PI * of_leg).cos());
+            let turn = Quaternion::from_axis_angle(&axis, angle_rad * turned);
+            self.turn(&mut guess, node, leg.from.product(&turn));
+        }
+        guess
+    }
+
+    /// Sets the base's attitude at a node.
+    fn turn(&self, guess: &mut InitialGuess, node: usize, attitude: Quaternion<f64>) {
+        let mut state = self.coordinates.free_floating_state(guess.states.row(node));
+        state.attitude = attitude;
+        let mut row = self.coordinates.of_free_floating_state(&state, self.time(node));
+        self.coordinates.copy_joints(guess.states.row(node), &mut row);
+        guess.states.row_mut(node).copy_from_slice(&row);
+    }
+
     /// The same joint motion while the base turns evenly about `axis`, from rest to rest.
     fn turning_about(
         &self,
@@ -138,11 +164,8 @@ impl InitialGuesses<'_> {
         let start = self.scenario.initial().attitude;
         for node in 1..=self.steps {
             let turned = 0.5 * (1.0 - (PI * node as f64 / self.steps as f64).cos());
-            let mut state = self.coordinates.free_floating_state(guess.states.row(node));
-            state.attitude = start.product(&Quaternion::from_axis_angle(axis, angle_rad * turned));
-            let mut row = self.coordinates.of_free_floating_state(&state, self.time(node));
-            self.coordinates.copy_joints(guess.states.row(node), &mut row);
-            guess.states.row_mut(node).copy_from_slice(&row);
+            let turn = Quaternion::from_axis_angle(axis, angle_rad * turned);
+            self.turn(&mut guess, node, start.product(&turn));
         }
         guess
     }

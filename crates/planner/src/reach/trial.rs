@@ -142,7 +142,9 @@ impl<'a> Trials<'a> {
     fn variant(&self, value: f64) -> Result<Scenario, ReachError> {
         Ok(self.scenario.varied(|file| match self.settings.quantity {
             Quantity::Duration => {
-                file.horizon.duration_s = file::Duration::Given(value);
+                file.horizon.duration_s =
+                    file::Duration::Given(file.horizon.duration_s.longest_s());
+                file.stretch_to_s(value);
                 file.weights.time = None;
             }
             Quantity::Angle => {

@@ -49,6 +49,7 @@ impl Ranking {
         let turn_rad = duration_s * rates.fold(0.0, f64::max);
         let for_joints = ((turn_rad / COARSE_TURN_RAD).ceil() as usize)
             .max(steps_for_cones(scenario))
+            .max(steps_for_legs(scenario))
             .clamp(COARSE_STEPS, MOST_COARSE_STEPS);
         let spin_rad = duration_s * scenario.initial().angular_rate_rad_s.norm();
         let for_spin = (spin_rad / COARSE_SPIN_RAD).ceil() as usize;
@@ -82,6 +83,13 @@ impl Ranking {
         let duration_s = scenario.horizon().step_s() * self.asked_steps as f64;
         scenario.clone().with_horizon(Horizon { duration_s, steps: self.steps })
     }
+}
+
+/// How many steps the legs of a slew with waypoints ask for: as many for the shortest as for a whole slew.
+fn steps_for_legs(scenario: &Scenario) -> usize {
+    let legs = scenario.legs().into_iter().map(|leg| leg.end - leg.start);
+    let shortest = legs.filter(|&share| share > 0.0).fold(1.0, f64::min);
+    (COARSE_STEPS as f64 / shortest).round() as usize
 }
 
 /// How many steps the cones ask for.

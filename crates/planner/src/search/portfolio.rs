@@ -11,6 +11,9 @@ use crate::initial_guess::InitialGuesses;
 const DETUMBLE_GUESSES: usize = 4;
 /// … of so many.
 const SCREENED_GUESSES: usize = 48;
+/// Low-discrepancy guesses that the automatic guess of a slew with waypoints ranks beside the constant one and
+/// the motion that its legs make one after the other.
+const SEQUENCE_GUESSES: usize = 2;
 /// A batch of a slew: numbers of low-discrepancy guesses, with the attitude turning evenly to the target and
 /// simulated, and closed loops of the joints as `(turns − 1) · 4 + phase`.
 struct SlewBatch {
@@ -53,6 +56,14 @@ pub(super) fn ranked_guesses(
             let slowest =
                 is_first.then(|| guesses.least_final_rate(SCREENED_GUESSES, DETUMBLE_GUESSES));
             constant().into_iter().chain(slowest.into_iter().flatten()).collect()
+        }
+        (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(_))
+            if !scenario.waypoints().is_empty() =>
+        {
+            let spread =
+                guesses.low_discrepancy(0).take(if is_first { SEQUENCE_GUESSES } else { 0 });
+            let along = constant().into_iter().chain(spread);
+            along.map(|guess| guesses.turning_along_legs(guess)).collect()
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(slew)) => {
             let Some(SlewBatch { turning, simulated, loops }) = SLEW_BATCHES.get(batch) else {

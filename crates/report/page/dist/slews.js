@@ -1,4 +1,4 @@
-/*! Generated from sources 387f4586d67434a192e5a0073342934cf0b77b9392819018208b4e81b0e33309 */
+/*! Generated from sources e3305203c326ef6314246c93e1ec465b5c8bb98a8e774adc81253909c75f3605 */
 /*!
 three
 

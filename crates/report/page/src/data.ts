@@ -14,6 +14,8 @@ export interface ReportData {
   cones: ConeData[];
   /** Attitude a slew is to reach, scalar first, body to inertial. */
   target_attitude: [number, number, number, number] | null;
+  /** Those on the way to it: attitude, and the node at which it is reached. */
+  waypoints: { node: number; attitude: [number, number, number, number] }[];
   bound_deg_s: number | null;
   steps: number;
   /** Every so many nodes of the plan are in the columns, and the last. */

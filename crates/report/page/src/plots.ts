@@ -214,7 +214,7 @@ function panels(data: ReportData, motion: Motion): Panel[] {
   const isSlew = motion.width("attitude_error_rad") > 0;
   return [
     ...(isSlew ? [{
-      ...plain, title: "Angle to the target", unit: "deg", leastSpan: 1e-3,
+      ...plain, title: data.waypoints.length > 0 ? "Angle to the next target" : "Angle to the target", unit: "deg", leastSpan: 1e-3,
       curves: [one("", scaled(motion.component("attitude_error_rad"), DEGREES))],
     }] : []),
     {

@@ -191,7 +191,7 @@ export class Stage {
     return new Trail(directions, this.skyRadius, goal, AXIS_COLORS[axis]);
   }
 
-  /** The start with its arm; a slew's target at the place where the base arrives. */
+  /** The start with its arm; a slew's targets at the places where the base arrives. */
   private ghosts(): Group[] {
     const { motion, data } = this;
     const { spacecraft } = data;
@@ -200,10 +200,13 @@ export class Stage {
     start.quaternion.copy(motion.attitudeAt(0));
     if (!data.target_attitude) return [start];
     const last = motion.nodes - 1;
-    const target = ghost(spacecraft, motion.vectorsAt("arm_points_m", last), { color: "target", width: 1.25, opacity: 0.75 });
-    target.position.copy(motion.vectorsAt("position_m", last)[0]);
-    target.quaternion.copy(fromScalarFirst(data.target_attitude));
-    return [start, target];
+    const targets = [...data.waypoints, { node: last, attitude: data.target_attitude }].map(({ node, attitude }) => {
+      const target = ghost(spacecraft, motion.vectorsAt("arm_points_m", node), { color: "target", width: 1.25, opacity: 0.75 });
+      target.position.copy(motion.vectorsAt("position_m", node)[0]);
+      target.quaternion.copy(fromScalarFirst(attitude));
+      return target;
+    });
+    return [start, ...targets];
   }
 
   private largestMomentum(): number {

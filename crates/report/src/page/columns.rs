@@ -6,7 +6,7 @@ use righting_multibody::Kinematics;
 use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::bodies::Solid;
 use righting_scenario::collision::Clearance;
-use righting_scenario::{CollisionModel, Maneuver, Scenario};
+use righting_scenario::{CollisionModel, Scenario};
 use serde::Serialize;
 
 /// More intervals than this are thinned out.
@@ -20,7 +20,7 @@ pub(super) type Column = String;
 ///
 /// Names, units and frames are those of `trajectory.csv`; what it does not have:
 /// `joint_accelerations_rad_s2` are there at the last node too where there are jerks; `attitude_error_rad` is
-/// the angle to a slew's target, `arm_points_m` are the origins of frames
+/// the angle to a slew's target, or its next waypoint, `arm_points_m` are the origins of frames
 /// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and
 /// clearances are the least of any link from what the base keeps out and of any two links. `capsules_m` are
 /// the two ends of the segment inside each capsule of the arm that is drawn as one, in body axes.
@@ -81,12 +81,13 @@ impl Columns {
         let momentum = |node: &&Node| -> [f64; 3] {
             model.h_tilde(&node.joint_angles_rad, &node.joint_rates_rad_s).into()
         };
-        let errors: Vec<f64> = match scenario.maneuver() {
-            Maneuver::Slew(slew) => {
-                nodes.iter().map(|node| node.state().attitude.angle_to(&slew.target)).collect()
-            }
-            Maneuver::Detumble => Vec::new(),
+        let legs = scenario.legs();
+        let error = |k: &usize| {
+            let share = *k as f64 / trajectory.steps() as f64;
+            let leg = legs.iter().rfind(|leg| share > leg.start).or(legs.first())?;
+            Some(trajectory.nodes()[*k].state().attitude.angle_to(&leg.target))
         };
+        let errors: Vec<f64> = shown.iter().filter_map(error).collect();
         let [body_clearance_m, link_clearance_m] = clearances(scenario, &postures);
         let points = postures.iter().flat_map(|posture| posture.frames.iter().map(|f| &f.origin));
         let axes = postures.iter().flat_map(|posture| &posture.joint_axes);

@@ -28,6 +28,8 @@ pub(super) struct PageData<'a> {
     spacecraft: Spacecraft,
     cones: Vec<Cone>,
     target_attitude: Option<[f64; 4]>,
+    /// Those on the way to it, in order.
+    waypoints: Vec<Waypoint>,
     bound_deg_s: Option<f64>,
     steps: usize,
     stride: usize,
@@ -79,6 +81,21 @@ enum KeepOut {
     Box { center_m: [f64; 3], size_m: [f64; 3] },
 }
 
+/// An attitude on the way, and the node shown that is the first at or after its arrival.
+#[derive(Debug, Serialize)]
+struct Waypoint {
+    node: usize,
+    attitude: [f64; 4],
+}
+
+impl Waypoint {
+    fn of(waypoint: &righting_scenario::Waypoint, steps: usize, shown: &[usize]) -> Self {
+        let [arrival, _] = waypoint.nodes(steps);
+        let node = shown.iter().position(|&node| node >= arrival).unwrap_or(0);
+        Self { node, attitude: waypoint.target.to_array() }
+    }
+}
+
 #[derive(Debug, Serialize)]
 struct JointLimits {
     angle_min_deg: Option<f64>,
@@ -120,6 +137,13 @@ impl<'a> PageData<'a> {
                 cones(scenario, &nodes.collect::<Vec<_>>())
             },
             target_attitude,
+            waypoints: {
+                let nodes = shown(trajectory);
+                let waypoints = scenario.waypoints().iter();
+                waypoints
+                    .map(|waypoint| Waypoint::of(waypoint, trajectory.steps(), &nodes))
+                    .collect()
+            },
             bound_deg_s: solution.bound_deg_s,
             steps: trajectory.steps(),
             stride: stride(trajectory),
