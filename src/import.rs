@@ -38,7 +38,7 @@ pub struct Arguments {
     /// Leave out a link with all that hangs on it; may be given again.
     #[arg(long, value_name = "LINK")]
     drop: Vec<String>,
-    /// Largest acceleration of joints that turn, deg/s²; URDF has none.
+    /// Largest acceleration of joints that turn, deg/s^2; URDF has none.
     #[arg(long, value_name = "A")]
     acceleration_max_deg_s2: Option<f64>,
     /// Largest rate of joints that turn and have no velocity limit, deg/s.
