@@ -20,15 +20,19 @@ fn blocks(language: &str) -> Vec<String> {
 fn the_examples_of_the_readme_are_accepted() {
     let examples: Vec<Value> =
         blocks("json").iter().map(|text| serde_json::from_str(text).expect("JSON")).collect();
-    let [scenario, system] = examples.as_slice() else { panic!("a scenario and a system") };
+    let [scenario, system, tree] = examples.as_slice() else {
+        panic!("a scenario, a system of rows and one of bodies")
+    };
 
     let place = root().join("scenarios/readme.json");
     righting_scenario::Scenario::parse(&scenario.to_string(), &place).expect("accepted");
 
-    let mut with_system = scenario.clone();
-    with_system["system"] = system.clone();
-    with_system["initial"]["joint_angles_deg"] = serde_json::json!([0, 0]);
-    righting_scenario::Scenario::parse(&with_system.to_string(), &place).expect("accepted");
+    for (system, angles_deg) in [(system, vec![0, 0]), (tree, vec![0])] {
+        let mut with_system = scenario.clone();
+        with_system["system"] = system.clone();
+        with_system["initial"]["joint_angles_deg"] = serde_json::json!(angles_deg);
+        righting_scenario::Scenario::parse(&with_system.to_string(), &place).expect("accepted");
+    }
 }
 
 #[test]
