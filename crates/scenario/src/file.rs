@@ -14,7 +14,7 @@ mod waypoint;
 
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Visitor};
+use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use bodies::{Body, Joint, JointType};
@@ -627,11 +627,26 @@ fn require_slew_target(schema: &mut schemars::Schema) {
 
 /// An empty list is not the same as none.
 fn some_links<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Link>, D::Error> {
-    let links = Vec::deserialize(deserializer)?;
-    match links.is_empty() {
-        true => Err(serde::de::Error::custom("an array of 1 to 32 links")),
-        false => Ok(links),
+    struct SomeLinks;
+    impl<'de> Visitor<'de> for SomeLinks {
+        type Value = Vec<Link>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("an array of 1 to 32 links")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut rows: A) -> Result<Self::Value, A::Error> {
+            let mut links = Vec::new();
+            while let Some(link) = rows.next_element()? {
+                links.push(link);
+            }
+            match links.is_empty() {
+                true => Err(serde::de::Error::invalid_length(0, &self)),
+                false => Ok(links),
+            }
+        }
     }
+    deserializer.deserialize_seq(SomeLinks)
 }
 
 fn is_false(value: &bool) -> bool {
