@@ -50,7 +50,10 @@ fn phrase_with(scenario: &Scenario, chosen_s: Option<f64>, number: fn(f64) -> St
                 1 => " by way of a waypoint".to_owned(),
                 waypoints => format!(" by way of {waypoints} waypoints"),
             };
-            format!("slew of {angle}° about {axis}{way} in {duration}")
+            match angle_deg == 0.0 && !maneuver.waypoints.is_empty() {
+                true => format!("slew back to the start{way} in {duration}"),
+                false => format!("slew of {angle}° about {axis}{way} in {duration}"),
+            }
         }
         ManeuverType::Detumble => {
             let rate = triple(scenario.initial.angular_rate_deg_s.unwrap_or_default());
