@@ -53,8 +53,6 @@ limits: setup
 # The wheel of the Python package in out/wheel/dist, with Ipopt in it, and its tests in a virtual environment of its
 # own, beside the plans of the command line.
 wheel: setup
-	cargo fmt --manifest-path python/Cargo.toml --check
-	cargo clippy --manifest-path python/Cargo.toml --release --locked -- -D warnings
 	cargo build --release --locked
 	scripts/wheel.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
@@ -97,6 +95,9 @@ fmt:
 lint: setup
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
+	# The Python package is a workspace of its own: that it follows the crates is seen here.
+	cargo fmt --manifest-path python/Cargo.toml --check
+	cargo clippy --manifest-path python/Cargo.toml --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
 
 setup:
