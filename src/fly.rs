@@ -129,8 +129,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let count = arguments.flights as usize;
     let progress = Progress::start();
     progress.name(format!("{count} flights: "));
-    let campaign = Campaign::new(&scenario, &plan, settings);
-    let flights = campaign.fly(count, &|| interrupt.is_asked())?;
+    let campaign = Campaign::new(&scenario, &plan, settings)?;
+    let flights = campaign.fly(count, &|| interrupt.is_asked());
     drop(progress);
     if interrupt.is_asked() {
         return Err(Failure::Interrupted);

@@ -4,6 +4,7 @@ use std::sync::mpsc::Sender;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use righting_flight::{Campaign, End, Flight, Settings, Summary};
+use righting_planner::PlanError;
 
 use crate::argument::count;
 use crate::columns::vector;
@@ -14,8 +15,7 @@ use crate::plan::Plan;
 use crate::turn::alone;
 
 /// Flights of one plan with spacecraft that are not as planned, each open loop, and with what is done about it. Arrays
-/// have one entry
-/// a flight, NaN where one could not be followed to its end.
+/// have one entry a flight, NaN where one could not be followed to its end.
 #[pyclass(frozen, module = "righting")]
 pub struct Flights(Vec<Flight>);
 
@@ -23,10 +23,10 @@ impl Flights {
     /// Flies a plan.
     pub fn of(py: Python<'_>, plan: &Plan, settings: Settings, flights: usize) -> Outcome<Self> {
         let flights = count("flights", flights)?.get();
-        let campaign = Campaign::new(&plan.scenario, &plan.trajectory, settings);
         let flown = alone(py, || {
             let fly = |halted: &AtomicBool, _: Sender<()>| {
-                campaign.fly(flights, &|| halted.load(Ordering::Relaxed))
+                let campaign = Campaign::new(&plan.scenario, &plan.trajectory, settings)?;
+                Ok::<_, PlanError>(campaign.fly(flights, &|| halted.load(Ordering::Relaxed)))
             };
             interruptible(fly, |_, ()| Ok(()))
         })?;

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use righting_planner::planner::PlanError;
 use righting_planner::{Feedback, Replanner};
 use righting_results::Trajectory;
-use righting_scenario::Scenario;
+use righting_scenario::{Scenario, file};
 use righting_verifier::model::State;
 
 use crate::end::End;
@@ -74,86 +74,88 @@ pub struct Flight {
 }
 
 /// A plan to be flown many times.
-#[derive(Clone, Copy, Debug)]
 pub struct Campaign<'a> {
     scenario: &'a Scenario,
     plan: &'a Trajectory,
     settings: Settings,
+    pilot: Pilot,
+}
+
+/// What flies a plant, made once for all flights.
+enum Pilot {
+    OpenLoop,
+    Feedback(Box<Feedback>),
+    /// As it is at the start: each flight has its own clone.
+    Replan(Replanner),
 }
 
 impl<'a> Campaign<'a> {
     /// Of a plan of the scenario.
-    pub fn new(scenario: &'a Scenario, plan: &'a Trajectory, settings: Settings) -> Self {
-        Self { scenario, plan, settings }
+    ///
+    /// # Errors
+    /// Those of [`Feedback::new`] or [`Replanner::new`], as the settings have it.
+    pub fn new(
+        scenario: &'a Scenario,
+        plan: &'a Trajectory,
+        settings: Settings,
+    ) -> Result<Self, PlanError> {
+        let pilot = match settings.control {
+            Control::OpenLoop => Pilot::OpenLoop,
+            Control::Feedback => Pilot::Feedback(Box::new(Feedback::new(scenario, plan)?)),
+            Control::Replan => Pilot::Replan(Replanner::new(scenario, plan)?),
+        };
+        Ok(Self { scenario, plan, settings, pilot })
     }
 
     /// The first `count` flights, on all cores, in their order. Once `is_stopped`, no further one begins.
-    ///
-    /// # Errors
-    /// As [`flight`](Self::flight).
-    pub fn fly(
-        &self,
-        count: usize,
-        is_stopped: &(impl Fn() -> bool + Sync),
-    ) -> Result<Vec<Flight>, PlanError> {
+    pub fn fly(&self, count: usize, is_stopped: &(impl Fn() -> bool + Sync)) -> Vec<Flight> {
         let begun = (0..count).into_par_iter().filter(|_| !is_stopped());
         begun.map(|number| self.flight(number)).collect()
     }
 
     /// Flight `number`, counted from zero.
-    ///
-    /// # Errors
-    /// Those of [`Replanner::new`].
-    pub fn flight(&self, number: usize) -> Result<Flight, PlanError> {
+    pub fn flight(&self, number: usize) -> Flight {
         let mut draws = ChaCha8Rng::seed_from_u64(self.settings.seed);
         draws.set_stream(number as u64);
         let system = self.settings.spreads.applied(self.scenario.resolved_system(), &mut draws);
-        let controls: Vec<Vec<f64>> = self
-            .plan
-            .intervals()
-            .iter()
-            .map(|interval| interval.joint_accelerations_rad_s2.clone())
-            .collect();
         let mut plant = self.plant(&system);
-        for (step, control) in controls.iter().enumerate() {
-            plant.advance(control, self.step_s(step));
+        for (step, interval) in self.plan.intervals().iter().enumerate() {
+            plant.advance(&interval.joint_accelerations_rad_s2, self.step_s(step));
         }
         let open_loop = End::of(self.scenario, &plant.state());
 
         let mut flight =
             Flight { number, open_loop, flown: open_loop, replans: Vec::new(), missed: 0 };
         let mut plant = self.plant(&system);
-        match self.settings.control {
-            Control::OpenLoop => return Ok(flight),
-            Control::Feedback => self.fly_with_feedback(&mut plant, &mut draws)?,
-            Control::Replan => self.fly_replanned(&mut plant, controls, &mut draws, &mut flight)?,
+        match &self.pilot {
+            Pilot::OpenLoop => return flight,
+            Pilot::Feedback(feedback) => self.fly_with_feedback(feedback, &mut plant, &mut draws),
+            Pilot::Replan(replanner) => {
+                self.fly_replanned(replanner.clone(), &mut plant, &mut draws, &mut flight);
+            }
         }
         flight.flown = End::of(self.scenario, &plant.state());
-        Ok(flight)
+        flight
     }
 
-    fn fly_with_feedback(
-        &self,
-        plant: &mut Plant,
-        draws: &mut ChaCha8Rng,
-    ) -> Result<(), PlanError> {
-        let feedback = Feedback::new(self.scenario, self.plan)?;
+    fn fly_with_feedback(&self, feedback: &Feedback, plant: &mut Plant, draws: &mut ChaCha8Rng) {
         for step in 0..self.plan.steps() {
             let measured = self.settings.sensors.measure(&plant.state(), draws);
             let control = feedback.accelerations(step, &measured.as_measured());
             plant.advance(&control, self.step_s(step));
         }
-        Ok(())
     }
 
     fn fly_replanned(
         &self,
+        mut replanner: Replanner,
         plant: &mut Plant,
-        mut controls: Vec<Vec<f64>>,
         draws: &mut ChaCha8Rng,
         flight: &mut Flight,
-    ) -> Result<(), PlanError> {
-        let mut replanner = Replanner::new(self.scenario, self.plan)?;
+    ) {
+        let intervals = self.plan.intervals().iter();
+        let controls = intervals.map(|interval| interval.joint_accelerations_rad_s2.clone());
+        let mut controls: Vec<Vec<f64>> = controls.collect();
         let step_s = self.plan.end().time_s / controls.len() as f64;
         let every = ((self.settings.period_s / step_s).round() as usize).max(1);
         for step in 0..controls.len() {
@@ -170,10 +172,9 @@ impl<'a> Campaign<'a> {
             }
             plant.advance(&controls[step], self.step_s(step));
         }
-        Ok(())
     }
 
-    fn plant(&self, system: &righting_scenario::file::System) -> Plant {
+    fn plant(&self, system: &file::System) -> Plant {
         Plant::new(system, &State::of_node(self.plan.start()))
     }
 

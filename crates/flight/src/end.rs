@@ -19,8 +19,7 @@ impl End {
     pub(crate) fn of(scenario: &Scenario, state: &State<'_>) -> Self {
         let error_rad = match scenario.maneuver() {
             Maneuver::Slew(slew) => {
-                let coords = state.attitude.coords;
-                let attitude = Quaternion::from_array([coords.w, coords.x, coords.y, coords.z]);
+                let attitude = Quaternion::from_array(state.attitude_wxyz());
                 attitude.normalized().angle_to(&slew.target)
             }
             Maneuver::Detumble => 0.0,

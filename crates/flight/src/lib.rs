@@ -20,7 +20,7 @@
 //! let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
 //! let planned = Planner::new().plan(&scenario, &mut |_| Control::Continue)?;
 //! let settings = Settings { period_s: 5.0, ..Settings::default() };
-//! let flight = Campaign::new(&scenario, &planned.trajectory, settings).flight(0)?;
+//! let flight = Campaign::new(&scenario, &planned.trajectory, settings)?.flight(0);
 //! assert!(flight.flown.error_rad < flight.open_loop.error_rad);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -42,8 +42,7 @@ impl Sensors {
             let standard: f64 = StandardNormal.sample(draws);
             deviation * standard
         };
-        let coords = state.attitude.coords;
-        let attitude = Quaternion::from_array([coords.w, coords.x, coords.y, coords.z]);
+        let attitude = Quaternion::from_array(state.attitude_wxyz());
         // Half a small turn is a quaternion's vector part.
         let turn = Vector3::from_fn(|_, _| 0.5 * noise(self.attitude_rad));
         let turn = Quaternion::from_array([1.0, turn.x, turn.y, turn.z]);

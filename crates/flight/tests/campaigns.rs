@@ -14,7 +14,7 @@ fn planned(name: &str) -> (Scenario, Trajectory) {
 }
 
 fn fly(scenario: &Scenario, plan: &Trajectory, settings: Settings, count: usize) -> Vec<Flight> {
-    Campaign::new(scenario, plan, settings).fly(count, &|| false).unwrap()
+    Campaign::new(scenario, plan, settings).unwrap().fly(count, &|| false)
 }
 
 const AS_PLANNED: Settings = Settings {
@@ -96,6 +96,6 @@ fn feedback_alone_brings_the_median_down_fivefold() {
 fn feedback_needs_a_target() {
     let (scenario, plan) = planned("detumble_2dof");
     let settings = Settings { control: Control::Feedback, ..Settings::default() };
-    let refused = Campaign::new(&scenario, &plan, settings).flight(0).unwrap_err().to_string();
+    let refused = Campaign::new(&scenario, &plan, settings).err().unwrap().to_string();
     assert_eq!(refused, "feedback is for slews, this is a detumble");
 }

@@ -100,8 +100,7 @@ fn load_running(
     rows: Rows<'_>,
     step_s: f64,
 ) {
-    block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
-    block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
+    load_rows(workspace, functions, block, rows);
     for (lane, step) in block.items() {
         workspace.input_mut(2)[lane] = step as f64 * step_s;
     }
@@ -116,9 +115,19 @@ fn load_stage(
     rows: Rows<'_>,
     step_s: f64,
 ) {
+    load_rows(workspace, functions, block, rows);
+    workspace.input_mut(2).fill(step_s);
+}
+
+/// Loads states and controls of a block of steps.
+fn load_rows(
+    workspace: &mut righting_symbolic::Workspace,
+    functions: &StageFunctions,
+    block: Block,
+    rows: Rows<'_>,
+) {
     block.load(workspace.input_mut(0), functions.states, |k| rows.state(k));
     block.load(workspace.input_mut(1), functions.controls, |k| rows.control(k));
-    workspace.input_mut(2).fill(step_s);
 }
 
 impl Problem for MultipleShooting<'_> {

@@ -16,15 +16,15 @@
 //! Control: Linear Quadratic Methods*, section 2.4). Accelerations and the rates that they lead to are kept
 //! within the joints' limits.
 
-use nalgebra::{DMatrix, DVector, Vector3};
-use righting_multibody::{Quaternion, State};
+use nalgebra::{DMatrix, DVector};
+use righting_multibody::Quaternion;
 use righting_results::Trajectory;
 use righting_scenario::file::Formulation;
 use righting_scenario::{Maneuver, Scenario};
 
 use crate::formulation::Coordinates;
+use crate::measured::Measured;
 use crate::planner::PlanError;
-use crate::replanner::Measured;
 use crate::scaling::Scaling;
 
 /// Why there are no gains about accelerations that are states.
@@ -84,15 +84,7 @@ impl Feedback {
     /// # Panics
     /// There is no such step, or not one joint value a joint.
     pub fn accelerations(&self, step: usize, measured: &Measured<'_>) -> Vec<f64> {
-        let time_s = self.scaling.units.time_s;
-        let here = State {
-            position: Vector3::zeros(),
-            attitude: measured.attitude,
-            velocity: Vector3::zeros(),
-            angular_rate: Vector3::zeros(),
-            joint_angles: measured.joint_angles_rad.to_vec(),
-            joint_rates: measured.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
-        };
+        let here = measured.state(&self.scaling);
         let here = self.coordinates.of_free_floating_state(&here, 0.0);
         let correction = &self.gains[step] * self.off(&here, &self.states[step]);
         let limits = self.scenario.system().joint_limits.iter();

@@ -75,9 +75,14 @@ impl InitialGuesses<'_> {
         simulated.into_iter().take(count).map(|(_, guess)| guess).collect()
     }
 
+    /// Length of a step of the grid.
+    pub(crate) fn step_s(&self) -> f64 {
+        self.scenario.horizon().duration_s / self.steps as f64
+    }
+
     /// The motion that the guess's controls make: its base turns as momentum has it.
     pub(crate) fn simulated(&self, mut guess: InitialGuess) -> InitialGuess {
-        self.simulate(&mut guess, 0, self.substeps);
+        self.simulate(&mut guess, 0, self.step_s(), self.substeps);
         guess
     }
 
@@ -104,25 +109,15 @@ impl InitialGuesses<'_> {
         self.to_end_posture(guess)
     }
 
-    /// Fills in the states that follow after the first `steps` steps, each integrated in so many
-    /// Runge–Kutta steps.
-    pub(crate) fn simulate(&self, guess: &mut InitialGuess, steps: usize, substeps: usize) {
-        let step_s = self.scenario.horizon().duration_s / self.steps as f64;
-        self.simulate_steps(guess, steps, step_s, substeps);
-    }
-
-    /// The motion that controls make in steps of a given length, each integrated in so many Runge–Kutta steps.
-    pub(crate) fn simulated_in(
+    /// Fills in the states that follow after the first `steps` steps, whose length is `step_s` and each of which
+    /// is integrated in so many Runge–Kutta steps.
+    pub(crate) fn simulate(
         &self,
+        guess: &mut InitialGuess,
+        steps: usize,
         step_s: f64,
-        mut guess: InitialGuess,
         substeps: usize,
-    ) -> InitialGuess {
-        self.simulate_steps(&mut guess, 0, step_s, substeps);
-        guess
-    }
-
-    fn simulate_steps(&self, guess: &mut InitialGuess, steps: usize, step_s: f64, substeps: usize) {
+    ) {
         let step_s = step_s / substeps as f64;
         let mut x = guess.states.row(steps).to_vec();
         let mut point = x.clone();

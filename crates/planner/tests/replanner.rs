@@ -49,8 +49,7 @@ fn flown(
 }
 
 fn attitude(x: &[f64]) -> Quaternion<f64> {
-    let coords = State::from_slice(x).attitude.coords;
-    Quaternion::from_array([coords.w, coords.x, coords.y, coords.z]).normalized()
+    Quaternion::from_array(State::from_slice(x).attitude_wxyz()).normalized()
 }
 
 fn turned(attitude: [f64; 4], by_deg: f64) -> Quaternion<f64> {

@@ -50,7 +50,7 @@ impl Search<'_> {
         let end = coordinates.free_floating_state(solution.states.row(moved));
         let turn_rad = end.angular_rate.norm() * self.grid.step_s();
         let substeps = ((turn_rad / HOLD_TURN_RAD).ceil() as usize).max(1);
-        guesses.simulate(&mut motion, moved, substeps);
+        guesses.simulate(&mut motion, moved, guesses.step_s(), substeps);
         let asked = &self.scenario.resolved().horizon;
         let time_s = asked.duration_s.longest_s() * moved as f64 / asked.steps;
         self.notes.push(format!(

@@ -60,6 +60,12 @@ impl<'a> State<'a> {
         }
     }
 
+    /// The attitude's entries w, x, y, z.
+    pub fn attitude_wxyz(&self) -> [f64; 4] {
+        let Quaternion { coords } = self.attitude;
+        [coords.w, coords.x, coords.y, coords.z]
+    }
+
     /// Writes the state vector into `x`.
     ///
     /// # Panics
@@ -67,9 +73,8 @@ impl<'a> State<'a> {
     pub fn write(&self, x: &mut [f64]) {
         assert_eq!(x.len(), Self::dimension(self.joint_angles.len()));
         let (base, joints) = x.split_at_mut(BASE);
-        let Quaternion { coords } = self.attitude;
         base[..3].copy_from_slice(self.position.as_slice());
-        base[3..7].copy_from_slice(&[coords.w, coords.x, coords.y, coords.z]);
+        base[3..7].copy_from_slice(&self.attitude_wxyz());
         base[7..10].copy_from_slice(self.velocity.as_slice());
         base[10..].copy_from_slice(self.angular_rate.as_slice());
         let (angles, rates) = joints.split_at_mut(self.joint_angles.len());

@@ -1,0 +1,32 @@
+//! Where a maneuver is measured to be on its way.
+
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State};
+
+use crate::scaling::Scaling;
+
+/// Where a maneuver is.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<'a> {
+    /// Attitude of the base, body → inertial.
+    pub attitude: Quaternion<f64>,
+    /// Joint angles (j), rad.
+    pub joint_angles_rad: &'a [f64],
+    /// Joint rates (j), rad/s.
+    pub joint_rates_rad_s: &'a [f64],
+}
+
+impl Measured<'_> {
+    /// The state in the measures of a maneuver, as far as it is measured: the rest of it is zero.
+    pub(crate) fn state(&self, scaling: &Scaling) -> State<f64> {
+        let time_s = scaling.units.time_s;
+        State {
+            position: Vector3::zeros(),
+            attitude: self.attitude,
+            velocity: Vector3::zeros(),
+            angular_rate: Vector3::zeros(),
+            joint_angles: self.joint_angles_rad.to_vec(),
+            joint_rates: self.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+        }
+    }
+}
