@@ -170,10 +170,9 @@ def angle(a: np.ndarray, b: np.ndarray) -> float:
 def judged(planned: Plan) -> Loads:
     """The loads of a plan by Pinocchio, at POINTS points in every step."""
     system = planned.scenario["system"]
-    model = build(system)
-    data = model.createData()
-    joints = len(system["links"])
-    time_s, states, controls, _ = read(planned.folder / "trajectory.csv", joints)
+    model, order = build(system)
+    data, joints = model.createData(), len(order)
+    time_s, states, controls, _ = read(planned.folder / "trajectory.csv", order)
     loads = Loads(np.zeros(joints))
     mount = np.array(system["mount"]["position_m"], float)
     body = base_inertia(system)

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use righting_scenario::json::FileKind;
 use righting_sweep::{
-    ColumnCells, Shard, ShardRun, Slews, Summary, SweepError, SweepFolder, Table, Workers, worker,
+    ColumnCells, Shard, ShardRun, Slews, Summary, SweepFolder, Table, Workers, worker,
 };
 
 use crate::argument::count;
@@ -37,13 +37,7 @@ pub fn plan_sweep(
     };
     let sweep = read.map_err(Failure::of_input(FileKind::Sweep))?;
     let folder = SweepFolder::at(&out);
-    if !resume {
-        let records = folder.read_records(|_| {}).map_err(Failure::from)?.records;
-        if records > 0 {
-            return Err(Failure::from(SweepError::Occupied { folder: out, records }).into());
-        }
-    }
-    folder.plan(&sweep, env!("CARGO_PKG_VERSION")).map_err(Failure::from)?;
+    folder.begin(&sweep, env!("CARGO_PKG_VERSION"), resume).map_err(Failure::from)?;
     Ok(sweep.len())
 }
 
@@ -164,7 +158,6 @@ impl SweepTable {
     /// The page of a sweep over slew axes and angles, an HTML document; None of any other.
     fn page(&self) -> Option<String> {
         let slews = Slews::of(&self.0, Slews::MOST_POINTS)?;
-        let has_axes = slews.columns.iter().any(|column| column.field == "maneuver.axis");
-        has_axes.then(|| righting_report::slews_html(self.0.sweep().name(), &slews))
+        slews.has_axes().then(|| righting_report::slews_html(self.0.sweep().name(), &slews))
     }
 }

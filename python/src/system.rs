@@ -63,6 +63,14 @@ impl System {
         self.0.description.joint_count()
     }
 
+    /// What the joints are called, in the order of their coordinates: by their names where they have any, else by
+    /// their numbers.
+    #[getter]
+    fn joint_names(&self) -> Vec<String> {
+        let names = &self.0.description.names;
+        (0..self.joint_count()).map(|joint| names.joint(joint)).collect()
+    }
+
     /// Mass of base, links and payload, kg.
     #[getter]
     fn mass_kg(&self) -> f64 {

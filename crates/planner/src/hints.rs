@@ -7,6 +7,7 @@ use righting_scenario::scenario::{Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
 use crate::planned::Planned;
+use crate::scaling::largest_turn_rad;
 use crate::spin::fast_spin;
 
 /// So close to a limit, as a share of it, it counts as reached.
@@ -80,14 +81,14 @@ fn reasons(scenario: &Scenario, trajectory: &Trajectory, missed: Vec<String>) ->
 /// How many times as long a maneuver should take, about.
 pub(crate) fn estimated_times_longer(scenario: &Scenario, planned: &Planned) -> f64 {
     let Maneuver::Slew(slew) = scenario.maneuver() else { return TIMES_LONGER };
-    let terminal = &planned.solution.terminal;
-    let still_to_turn = terminal.attitude_error_deg.to_radians();
-    let slew_rad = slew.angle_rad.abs();
+    let (error, error_deg) = planned.solution.largest_miss();
+    let still_to_turn = error_deg.to_radians();
+    let slew_rad = largest_turn_rad(scenario, slew);
     // Against its limits an arm turns the base by an angle that grows with the square of the time.
     // Without any, the error is a trade for effort, which falls with its third power.
     let times_longer = match active_limits(scenario, &planned.trajectory).is_empty() {
         false => (slew_rad / (slew_rad - still_to_turn)).sqrt(),
-        true => (terminal.attitude_error / ATTITUDE_ERROR).cbrt(),
+        true => (error / ATTITUDE_ERROR).cbrt(),
     };
     let is_telling = slew_rad > still_to_turn && times_longer <= MOST_TIMES_LONGER;
     match is_telling && planned.solution.status.is_acceptable() {

@@ -154,23 +154,21 @@ impl<'a> Planner<'a> {
             return Err(reason.into());
         }
 
-        let mut leg_attempts = Vec::new();
-        let of_legs = match earlier.is_none() && !scenario.waypoints().is_empty() {
-            true => self.planned_legs(scenario, observer, &mut leg_attempts),
-            false => None,
-        };
-        let earlier = earlier.or(of_legs.as_ref());
-
         let limit = [self.time_limit, scenario.solver().time_limit].into_iter().flatten().min();
         let mut is_late = false;
         let mut watched = |record: &IterationRecord| {
             is_late |= limit.is_some_and(|limit| started.elapsed() > limit);
             if is_late { Control::Stop } else { observer(record) }
         };
+        let is_of_this = earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
+        let mut leg_attempts = Vec::new();
+        let of_legs = match earlier.is_none() && !scenario.waypoints().is_empty() {
+            true => self.planned_legs(scenario, &mut watched, &mut leg_attempts),
+            false => None,
+        };
+        let earlier = earlier.or(of_legs.as_ref());
+
         let (mut measured, mut scaling) = Scaling::applied(scenario)?;
-        // The legs one after the other are a plan, but not yet one over all.
-        let is_of_this =
-            of_legs.is_none() && earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
         let mut search = |measured: &Scenario, scaling: &Scaling| {
             let earlier = earlier.as_ref().map(|plan| Earlier { plan, is_of_this });
@@ -225,7 +223,6 @@ impl Planner<'_> {
     ) -> Option<Trajectory> {
         sequence::of_legs(scenario, |leg| {
             let mut planner = Planner::new().threads(self.threads).without_remedies();
-            planner.time_limit = self.time_limit;
             let planned = planner.plan(leg, observer).ok()?;
             attempts.extend(planned.solution.attempts.iter().cloned());
             Some(planned)

@@ -72,9 +72,7 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
     match (solution.status, scenario.maneuver()) {
         (Status::Interrupted | Status::TimeLimit, _) => false,
         (status, Maneuver::Slew(_)) if status.is_acceptable() => {
-            let on_the_way = solution.waypoints.iter().map(|waypoint| waypoint.attitude_error);
-            let errors = on_the_way.chain([solution.terminal.attitude_error]);
-            asks_for_target && errors.fold(0.0, f64::max) > righting_verifier::ATTITUDE_ERROR
+            asks_for_target && solution.largest_miss().0 > righting_verifier::ATTITUDE_ERROR
         }
         (status, Maneuver::Slew(_)) => !status.is_acceptable(),
         (_, Maneuver::Detumble) => false,

@@ -246,6 +246,16 @@ pub struct IterationRecord {
 }
 
 impl Solution {
+    /// The largest attitude error at the end and at waypoints: the norm of its vector part, and its angle, deg.
+    pub fn largest_miss(&self) -> (f64, f64) {
+        let waypoints = self.waypoints.iter();
+        let errors = waypoints.map(|found| (found.attitude_error, found.attitude_error_deg));
+        let Terminal { attitude_error, attitude_error_deg, .. } = self.terminal;
+        errors.fold((attitude_error, attitude_error_deg), |(most, most_deg), (error, deg)| {
+            (most.max(error), most_deg.max(deg))
+        })
+    }
+
     /// Writes `solution.json`, whole or not at all.
     ///
     /// # Errors

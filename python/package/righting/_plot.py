@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,7 +28,8 @@ def plot(plan: Plan) -> Figure:
         pyplot.close(figure)
     axes = figure.subplots(3, 2, sharex=True)
     time_s, starts_s = plan.time_s, plan.time_s[:-1]
-    joints = [f"joint {number}" for number in range(1, plan.joint_count + 1)]
+    system = plan.scenario.system
+    joints = system.joint_names
     columns = [
         (axes[0, 0], "quaternion", time_s, plan.quaternion, ["w", "x", "y", "z"]),
         (axes[0, 1], "angular rate [deg/s]", time_s, np.degrees(plan.angular_rate_rad_s), ["x", "y", "z"]),
@@ -53,12 +54,20 @@ def plot(plan: Plan) -> Figure:
         axis.set_xlabel("time [s]")
     for axis in (axes[0, 0], axes[0, 1], axes[1, 0]):
         axis.legend(loc="best", fontsize="small", ncols=2)
-    for number, link in enumerate(plan.scenario.system.to_dict()["links"]):
-        _draw_limits(axes[1, 0], number, [link.get("angle_min_deg"), link.get("angle_max_deg")])
-        _draw_limits(axes[1, 1], number, [-link["rate_max_deg_s"], link["rate_max_deg_s"]])
+    for number, row in enumerate(_joint_rows(system.to_dict())):
+        _draw_limits(axes[1, 0], number, [row.get("angle_min_deg"), row.get("angle_max_deg")])
+        _draw_limits(axes[1, 1], number, [-row["rate_max_deg_s"], row["rate_max_deg_s"]])
     verdict = "verified" if plan.verified else "NOT VERIFIED"
     figure.suptitle(f"{plan.name}: {verdict}")
     return figure
+
+
+def _joint_rows(system: dict[str, Any]) -> list[dict[str, Any]]:
+    """What a system file says of each joint that moves: rows of links, or the joints of its bodies."""
+    if "links" in system:
+        rows: list[dict[str, Any]] = system["links"]
+        return rows
+    return [body["joint"] for body in system["bodies"] if body["joint"]["type"] != "fixed"]
 
 
 def _draw_limits(axis: Axes, joint: int, limits: list[float | None]) -> None:

@@ -16,7 +16,7 @@ def show(plan: Plan, height: int) -> Any:
     """The page as an output of a notebook; elsewhere it is opened in a browser, and its file is returned."""
     page = plan.page()
     if not in_notebook():
-        with tempfile.NamedTemporaryFile("w", suffix=".html", delete=False) as file:
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", suffix=".html", delete=False) as file:
             file.write(page)
         webbrowser.open(Path(file.name).as_uri())
         return Path(file.name)
