@@ -170,6 +170,8 @@ fn scenario_and_plan(input: &Path) -> Result<(Scenario, Trajectory, Interrupt), 
     if input.join(SOLUTION_FILE).exists() {
         let Verified { solution, scenario, trajectory } = plan_folder::read(input)?;
         Failure::of_verification(&solution).map_or(Ok(()), Err)?;
+        // Replans are solved too.
+        optimizer::load()?;
         return Ok((scenario, trajectory, Interrupt::watch()));
     }
     let scenario = scenario_input::read(input)?;
@@ -178,11 +180,7 @@ fn scenario_and_plan(input: &Path) -> Result<(Scenario, Trajectory, Interrupt), 
     let progress = Progress::start();
     let mut on_iteration = |record: &IterationRecord| {
         progress.show(record);
-        if interrupt.is_asked() {
-            righting_ocp::Control::Stop
-        } else {
-            righting_ocp::Control::Continue
-        }
+        interrupt.control()
     };
     let mut planner = Planner::new().program(build::VERSION);
     let Planned { solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;

@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = OutputFolder::open(folder.unwrap_or(Path::new(".")))?;
     let name = arguments.out.file_name().unwrap_or_default().to_string_lossy();
-    folder.write(&name, readable_json(&imported.system)?.as_bytes())?;
+    folder.write(&name, readable_json(&imported.resolved)?.as_bytes())?;
     for note in &imported.notes {
         output::say(Label::Note, note);
     }

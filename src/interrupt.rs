@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use righting_ocp::Control;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -23,6 +24,11 @@ impl Interrupt {
             debug_assert!(at_once.is_ok() && cleanly.is_ok());
         }
         Self(asked)
+    }
+
+    /// What a solve is told after an iteration: to stop once an interrupt is asked for.
+    pub fn control(&self) -> Control {
+        if self.is_asked() { Control::Stop } else { Control::Continue }
     }
 
     /// Whether to stop now.

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use righting_ocp::Control;
 use righting_planner::reach;
 use righting_planner::reach::{Quantity, Reach, ReachSettings, Reached, StartedFrom, Try};
 use righting_report::{FigureWriter, reach_summary, reach_svg};
@@ -183,7 +182,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::start();
     let found = reach::reach(&scenario, settings, &mut |step| {
         show(&progress, quantity, step);
-        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+        interrupt.control()
     })?;
     drop(progress);
 

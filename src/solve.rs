@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
 use righting_report::{FigureWriter, report_html, summary};
 use righting_results::{
@@ -84,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::start();
     let mut on_iteration = |record: &IterationRecord| {
         progress.show(record);
-        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+        interrupt.control()
     };
     let mut planner = Planner::new().program(build::VERSION);
     if let Some(limit) = arguments.time_limit {

@@ -6,7 +6,6 @@ use std::time::Instant;
 use righting_analysis::envelope::sampled_maxima;
 use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
 use righting_analysis::{PowerProfile, envelopes};
-use righting_ocp::Control;
 use righting_planner::Planner;
 use righting_report::{
     FigureWriter, PowerComparison, PowerTrade, maneuvers_svg, power_svg, power_trade_svg,
@@ -152,9 +151,7 @@ fn planned(scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure
     output::complain(scenario.name());
     let mut planner = Planner::new().program(build::VERSION);
     let righting_planner::Planned { solution, trajectory } =
-        planner.plan(&scenario, &mut |_| {
-            if interrupt.is_asked() { Control::Stop } else { Control::Continue }
-        })?;
+        planner.plan(&scenario, &mut |_| interrupt.control())?;
     match solution.status {
         Status::Interrupted => Err(Failure::Interrupted),
         status if status.is_acceptable() => Ok(Planned { scenario, solution, trajectory }),

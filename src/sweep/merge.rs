@@ -48,7 +48,7 @@ pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     })?;
     if let Some(slews) = &slews {
         write("slew_limits.csv", &|writer| slews.write_csv(writer))?;
-        if slews.columns.iter().any(|column| column.field == "maneuver.axis") {
+        if slews.has_axes() {
             let figure = slews_svg(&summary.sweep, slews);
             write("slews.svg", &|writer| writer.write_all(figure.as_bytes()))?;
             let page = slews_html(&summary.sweep, slews);

@@ -12,7 +12,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use righting_sweep::{Shard, SweepError, SweepFolder, worker};
+use righting_sweep::{Shard, SweepFolder, worker};
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -96,13 +96,7 @@ fn planned(folder: &Path) -> Result<SweepFolder, Failure> {
 fn run_whole(whole: &Whole) -> Result<(), Failure> {
     let sweep = plan::read(&whole.file)?;
     let folder = SweepFolder::at(OutputFolder::open(&whole.out)?.path());
-    if !whole.resume {
-        let records = folder.read_records(|_| {})?.records;
-        if records > 0 {
-            return Err(SweepError::Occupied { folder: whole.out.clone(), records }.into());
-        }
-    }
-    folder.plan(&sweep, crate::build::VERSION)?;
+    folder.begin(&sweep, crate::build::VERSION, whole.resume)?;
     run::run_shard(&folder, &sweep, Shard::WHOLE, whole.jobs)?;
     merge::merge(&folder, whole.json)
 }

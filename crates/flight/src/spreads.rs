@@ -59,7 +59,7 @@ impl Spreads {
         if let Some(mount) = &mut plant.mount {
             moved(&mut mount.position_m, self.mount_m);
         }
-        let base = plant.base.name.as_deref().unwrap_or("base");
+        let base = plant.base.name();
         let on_base = plant.bodies.iter_mut().flatten().filter(|body| body.parent == base);
         for body in on_base {
             moved(body.joint.position_m.get_or_insert_default(), self.mount_m);

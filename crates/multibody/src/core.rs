@@ -1,8 +1,8 @@
 //! The straight segments that capsules are swept around, and which joint moves each.
 
-use crate::algebra::{constant, zero};
+use crate::algebra::constant;
 use crate::distance::Segment;
-use crate::kinematics::{Frame, Kinematics};
+use crate::kinematics::Kinematics;
 use crate::parts::DhConvention;
 use crate::system::System;
 use crate::tree::Carried;
@@ -129,10 +129,9 @@ impl<T: Scalar> Kinematics<T> {
             Core::InFrame { frame, from_m, to_m } => {
                 let frame = &self.frames[*frame];
                 let along = to_m - from_m;
-                let axes = Frame { origin: zero(), axes: frame.axes };
                 Segment {
                     start: frame.point(from_m),
-                    direction: axes.point(&along),
+                    direction: frame.vector(&along),
                     length_squared: T::from(along.norm_squared()),
                 }
             }

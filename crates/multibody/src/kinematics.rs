@@ -36,6 +36,11 @@ impl<T: Scalar> Frame<T> {
         along(along(along(self.origin, 0), 1), 2)
     }
 
+    /// The vector with the given constant coordinates in this frame, body axes.
+    pub(crate) fn vector(&self, coordinates: &Vector3<f64>) -> Vector3<T> {
+        Self { origin: zero(), axes: self.axes }.point(coordinates)
+    }
+
     /// The frame that sits at `position` in this one and whose vectors `rotation` turns into this one's.
     pub(crate) fn carried(&self, position: &Vector3<f64>, rotation: &Matrix3<f64>) -> Self {
         let [x, y, z] = &self.axes;
@@ -170,6 +175,6 @@ fn columns<T: Scalar>(matrix: &Matrix3<f64>) -> [Vector3<T>; 3] {
 }
 
 fn segment<T: Scalar>(frame: &Frame<T>, offset: &Vector3<f64>) -> Segment<T> {
-    let direction = Frame { origin: zero(), axes: frame.axes }.point(offset);
+    let direction = frame.vector(offset);
     Segment { start: frame.origin, direction, length_squared: T::from(offset.norm_squared()) }
 }

@@ -3,7 +3,7 @@
 use crate::algebra::{constant, constant_rotation, cross, difference, scaled, sum, zero};
 use crate::branches::{Beyond, Branches};
 use crate::coupling::Coupling;
-use crate::kinematics::{Frame, joint_frames};
+use crate::kinematics::joint_frames;
 use crate::sweep::{Moments, group_rotations};
 use crate::symmetric::Symmetric;
 use crate::system::System;
@@ -33,7 +33,7 @@ impl System {
         let tree = &self.tree;
         let frames = joint_frames(tree, &group_rotations(tree, q));
         let turned = |k: Option<usize>, c: &Vector3<f64>| match k {
-            Some(k) => Frame { origin: zero(), axes: frames[k].axes }.point(c),
+            Some(k) => frames[k].vector(c),
             None => constant(c),
         };
         let coupled = |k: Option<usize>, coupling: &Coupling, beyond: &Moments<T>| {

@@ -212,3 +212,10 @@ options! {
     jacobian_regularization_value: f64 =
         1e-8, "jacobian_regularization_value", Range::at_least(0.0);
 }
+
+impl Options {
+    /// The barrier parameter that a solve ends with, where nothing is scaled: Ipopt's `mu_min` by default.
+    pub fn last_barrier_parameter(&self) -> f64 {
+        self.tolerance / (self.barrier_tol_factor + 1.0)
+    }
+}

@@ -38,8 +38,7 @@ fn between_settings(settings: &Settings) -> Settings {
 
 /// Settings for the asked grid: they begin at the barrier parameter that Ipopt ends with.
 fn last_settings(settings: &Settings) -> Settings {
-    let Options { tolerance, barrier_tol_factor, .. } = settings.ipopt;
-    warm_start_settings(settings, tolerance / (barrier_tol_factor + 1.0))
+    warm_start_settings(settings, settings.ipopt.last_barrier_parameter())
 }
 
 /// Settings for a start with multipliers, at a barrier parameter: bounds and multipliers are taken as they

@@ -241,10 +241,10 @@ fn hard_attitude(turn_rad: f64) -> f64 {
 }
 
 /// The largest angle of a slew's legs, rad.
-fn largest_turn_rad(measured: &Scenario, slew: &Slew) -> f64 {
-    match measured.waypoints() {
+pub(crate) fn largest_turn_rad(scenario: &Scenario, slew: &Slew) -> f64 {
+    match scenario.waypoints() {
         [] => slew.angle_rad.abs(),
-        _ => measured.legs().iter().map(|leg| leg.angle_rad).fold(0.0, f64::max),
+        _ => scenario.legs().iter().map(|leg| leg.angle_rad).fold(0.0, f64::max),
     }
 }
 

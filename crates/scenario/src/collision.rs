@@ -49,7 +49,7 @@ pub struct Clearance {
     /// Between what.
     pub between: Between,
     /// The distance of the surfaces, m, negative where they cross; from the keep-out sphere that of the
-    /// solid's surface from the base's center of mass.
+    /// solid's surface from the origin of the body frame.
     pub distance_m: f64,
     /// The least that is allowed, m.
     pub least_m: f64,

@@ -51,19 +51,16 @@ pub(crate) fn check_end_clearances(
         .take(POSTURES)
         .map(|sample| distances(&system.joint_angles_at(&sample)))
         .collect();
-    let posture = model.kinematics(&initial.joint_angles_rad);
-    let clearances = collision.clearances(&posture).enumerate();
-    for (index, clearance) in clearances {
-        let distance_m = at_start[index];
+    for (index, (pair, &distance_m)) in collision.pairs.iter().zip(&at_start).enumerate() {
         let is_decided = elsewhere.iter().all(|other| (other[index] - distance_m).abs() <= slack_m);
-        if is_decided && distance_m < clearance.least_m - slack_m {
+        if is_decided && distance_m < pair.least_m - slack_m {
             return Err(place.refuse(
                 format_args!(
                     "an end with {} {} m apart",
-                    system.names.between(&clearance.between),
+                    system.names.between(&pair.between),
                     Number::rounded(distance_m, 6)
                 ),
-                format_args!("at least {} m", Number::rounded(clearance.least_m, 6)),
+                format_args!("at least {} m", Number::rounded(pair.least_m, 6)),
             ));
         }
     }

@@ -8,7 +8,6 @@ use righting_multibody::{BodyJoint, JointedBody, Placement, RigidBody};
 use crate::error::Error;
 use crate::file::{self, JointType};
 use crate::json::{Bounds, Location, Number, shown};
-use crate::names::BASE;
 use crate::system_description::{MASS_KG, MAX_JOINTS, matrix, unit_quaternion, vector};
 
 /// The most bodies a system may have, fixed ones among them.
@@ -55,7 +54,7 @@ fn parents(
     base: &file::Base,
     place: &Location,
 ) -> Result<Vec<Option<usize>>, Error> {
-    let base = base.name.as_deref().unwrap_or(BASE);
+    let base = base.name();
     let places: BTreeMap<&str, usize> =
         bodies.iter().enumerate().map(|(index, body)| (body.name.as_str(), index)).collect();
     let mut parents = Vec::with_capacity(bodies.len());

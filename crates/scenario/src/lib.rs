@@ -80,6 +80,6 @@ pub use scenario::{Horizon, Maneuver, Scenario, Slew, SolverSettings, Weights};
 pub use system_description::SystemDescription;
 pub use system_file::SystemFile;
 pub use system_or_scenario::SystemOrScenario;
-pub use urdf::{ImportedSystem, import_urdf};
+pub use urdf::import_urdf;
 pub use waypoints::{Leg, Waypoint};
 pub use wheels::WheelArray;

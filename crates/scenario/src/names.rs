@@ -9,9 +9,6 @@ use crate::error::Error;
 use crate::file::{self, JointPlace};
 use crate::json::{Location, shown};
 
-/// What the base is called where nothing is said.
-pub(crate) const BASE: &str = "base";
-
 /// Names of links, bodies and joints. What has none goes by its number, counted from one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Names {
@@ -30,8 +27,7 @@ impl Names {
         let bodies = names.bodies.iter().enumerate();
         let bodies = bodies
             .map(|(index, name)| (name.as_str(), place.key("bodies").index(index).key("name")));
-        let base = system.base.name.as_deref().unwrap_or(BASE);
-        let base = std::iter::once((base, place.key("base").key("name")));
+        let base = std::iter::once((system.base.name(), place.key("base").key("name")));
         check(base.chain(bodies), "body")?;
         check(links, "link")?;
         let rows = system.joints();

@@ -19,6 +19,7 @@ use crate::load_limits::LoadLimits;
 use crate::names::Names;
 use crate::rounding::COMPUTED;
 use crate::rows::{doubt_about_frames, rows};
+use crate::system_file::SystemFile;
 
 /// The most joints an arm may have.
 pub const MAX_JOINTS: usize = 32;
@@ -67,7 +68,7 @@ impl SystemDescription {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        Self::from_file(&mut read_system(file)?, &Location::root(file), &mut Vec::new())
+        Ok(SystemFile::read(file)?.description)
     }
 
     /// Number of joints j.

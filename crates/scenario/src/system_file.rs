@@ -40,8 +40,16 @@ impl SystemFile {
     /// # Errors
     /// [`Error::Field`] for a field that is wrong.
     pub fn from_file(system: file::System, file: &Path) -> Result<Self, Error> {
-        let (mut resolved, mut notes) = (system, Vec::new());
-        let place = Location::root(file);
+        Self::noted(system, file, Vec::new())
+    }
+
+    /// Checks a system of which something is to be said already.
+    pub(crate) fn noted(
+        system: file::System,
+        file: &Path,
+        mut notes: Vec<String>,
+    ) -> Result<Self, Error> {
+        let (mut resolved, place) = (system, Location::root(file));
         let description = SystemDescription::from_file(&mut resolved, &place, &mut notes)?;
         Ok(Self { description, resolved, notes })
     }

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::file_kind::FileKind;
-use crate::json::{Document, Location};
+use crate::json::Document;
 use crate::scenario::Scenario;
 use crate::system_description::SystemDescription;
+use crate::system_file::SystemFile;
 
 /// What a file holds that may be either.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,9 +28,7 @@ impl SystemOrScenario {
         Ok(if document.has_key("system") {
             Self::Scenario(Box::new(Scenario::from_file(document.decode()?, file)?))
         } else {
-            let (place, mut notes) = (Location::root(file), Vec::new());
-            let system = SystemDescription::from_file(&mut document.decode()?, &place, &mut notes)?;
-            Self::System(Box::new(system))
+            Self::System(Box::new(SystemFile::from_file(document.decode()?, file)?.description))
         })
     }
 

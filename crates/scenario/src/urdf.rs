@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::file::{self, SystemOptions};
 use crate::file_io;
 use crate::json::{Bounds, Location};
-use crate::system_description::{LENGTH_M, SystemDescription, base};
+use crate::system_description::{LENGTH_M, base};
+use crate::system_file::SystemFile;
 
 /// The ending by which a path says that it is a URDF file's.
 const EXTENSION: &str = "urdf";
@@ -24,28 +25,16 @@ pub(crate) fn is_urdf(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(EXTENSION))
 }
 
-/// A system that was made from a robot's file.
-#[derive(Clone, Debug)]
-pub struct ImportedSystem {
-    /// The system, as a file.
-    pub system: file::System,
-    /// What it means.
-    pub description: SystemDescription,
-    /// What was assumed, left out or put together, a sentence each.
-    pub notes: Vec<String>,
-}
-
 /// Reads a robot from a URDF file, puts it together as `options` say, and checks it like any system.
 /// Complaints about options name the URDF file.
 ///
 /// # Errors
 /// Those of reading, [`Error::Robot`] for what is wrong with the robot, [`Error::Field`] for an option or
 /// what follows from it.
-pub fn import_urdf(file: &Path, options: &SystemOptions) -> Result<ImportedSystem, Error> {
-    let (place, mut notes) = (Location::root(file), Vec::new());
-    let mut system = system_from_urdf(file, options, &place, &mut notes)?;
-    let description = SystemDescription::from_file(&mut system, &place, &mut notes)?;
-    Ok(ImportedSystem { system, description, notes })
+pub fn import_urdf(file: &Path, options: &SystemOptions) -> Result<SystemFile, Error> {
+    let mut notes = Vec::new();
+    let system = system_from_urdf(file, options, &Location::root(file), &mut notes)?;
+    SystemFile::noted(system, file, notes)
 }
 
 /// Reads a robot from a URDF file as the system file that `options` make of it; `place` is where they
@@ -77,7 +66,7 @@ pub(crate) fn system_from_urdf(
     let name = file.file_name().unwrap_or_default().display();
     notes.extend(system.notes.iter().map(|note| format!("{name}: {note}")));
     let base = whole_base(&system, options, &place.key("on"))?;
-    let base_name = base.name.clone().unwrap_or_else(|| "base".to_owned());
+    let base_name = base.name().to_owned();
     let mut bodies = Vec::new();
     for body in &system.bodies {
         let parent = match body.parent {
@@ -171,12 +160,13 @@ fn whole_base(
     if system.base.mass_kg == 0.0 && system.base_shapes.is_empty() {
         return Ok(base);
     }
+    let (multibody::Base { mass_kg, center_of_mass_m, inertia_kg_m2 }, keep_out_radius_m) =
+        self::base(given, place)?;
     // What a cube keeps out without being asked stays, whatever is added to it.
-    if let (Some(side_m), None, None) = (base.cube_side_m, base.keep_out_radius_m, &base.keep_out) {
-        base.keep_out_radius_m = Some(side_m * 3.0_f64.sqrt() / 2.0);
-    }
+    base.keep_out_radius_m = keep_out_radius_m;
     if system.base.mass_kg > 0.0 {
-        let whole = body_of(given, place)?.joined(&system.base, &Placement::identity());
+        let alone = RigidBody { mass_kg, center_of_mass_m, inertia_kg_m2 };
+        let whole = alone.joined(&system.base, &Placement::identity());
         base.cube_side_m = None;
         set_body(&mut base, &whole);
     }
@@ -190,12 +180,6 @@ fn set_body(base: &mut file::Base, body: &RigidBody) {
     base.mass_kg = body.mass_kg;
     base.center_of_mass_m = Some(array(&body.center_of_mass_m));
     base.inertia_kg_m2 = Some(rows(&body.inertia_kg_m2));
-}
-
-fn body_of(given: &file::Base, place: &Location) -> Result<RigidBody, Error> {
-    let (base, _) = base(given, place)?;
-    let multibody::Base { mass_kg, center_of_mass_m, inertia_kg_m2 } = base;
-    Ok(RigidBody { mass_kg, center_of_mass_m, inertia_kg_m2 })
 }
 
 fn body(

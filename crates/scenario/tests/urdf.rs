@@ -4,7 +4,7 @@ use std::fs;
 
 use nalgebra::Vector3;
 use righting_scenario::file::{Base, KeepOut, Sphere, SystemOptions};
-use righting_scenario::{Error, ImportedSystem, Scenario, import_urdf};
+use righting_scenario::{Error, Scenario, SystemFile, import_urdf};
 
 /// A bus, an arm on a hinge and a camera fixed to its tip.
 const ROBOT: &str = r#"<robot name="camera_arm">
@@ -30,7 +30,7 @@ fn options() -> SystemOptions {
     }
 }
 
-fn import(urdf: &str, options: &SystemOptions) -> Result<ImportedSystem, Error> {
+fn import(urdf: &str, options: &SystemOptions) -> Result<SystemFile, Error> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.urdf");
     fs::write(&file, urdf).unwrap();
@@ -45,7 +45,7 @@ fn refusal(urdf: &str, options: &SystemOptions) -> String {
 
 #[test]
 fn a_link_as_base() {
-    let ImportedSystem { system, description, notes } = import(ROBOT, &options()).unwrap();
+    let SystemFile { resolved: system, description, notes } = import(ROBOT, &options()).unwrap();
     assert_eq!(system.name, "camera_arm");
     assert_eq!(system.base.name.as_deref(), Some("bus"));
     assert_eq!(system.base.center_of_mass_m, Some([0.1, 0.0, 0.0]));
@@ -80,7 +80,7 @@ fn a_robot_on_a_cube_keeps_what_the_cube_keeps_out() {
         mount_rpy_deg: Some([0.0, 0.0, 90.0]),
         ..options()
     };
-    let ImportedSystem { system, .. } = import(ROBOT, &mounted).unwrap();
+    let SystemFile { resolved: system, .. } = import(ROBOT, &mounted).unwrap();
     let base = &system.base;
     assert_eq!((base.mass_kg, base.cube_side_m), (150.0, None));
     assert!((base.keep_out_radius_m.unwrap() - 0.75_f64.sqrt()).abs() < 1e-15);
@@ -98,7 +98,7 @@ fn a_robot_on_a_cube_keeps_what_the_cube_keeps_out() {
     let joint = "<joint name=\"j\" type=\"fixed\"><parent link=\"bus\"/><child link=\"x\"/></joint></robot>";
     let massless = massless.replace("</robot>", joint);
     let without = SystemOptions { dropped: vec!["x".to_owned()], ..mounted };
-    let ImportedSystem { system, .. } = import(&massless, &without).unwrap();
+    let SystemFile { resolved: system, .. } = import(&massless, &without).unwrap();
     assert_eq!(system.base, cube);
 }
 
@@ -151,7 +151,7 @@ fn what_urdf_lacks_is_asked_for() {
     }
     let faster = SystemOptions { rate_max_deg_s: Some(7.0), ..options() };
     let imported = import(&without_rate, &faster).unwrap();
-    assert_eq!(imported.system.bodies.unwrap()[0].joint.rate_max_deg_s, Some(7.0));
+    assert_eq!(imported.resolved.bodies.unwrap()[0].joint.rate_max_deg_s, Some(7.0));
 }
 
 fn scenario(system: &str, options: &str) -> String {
@@ -172,7 +172,7 @@ fn a_scenario_takes_a_urdf_file() {
     let read = Scenario::parse(&scenario("robot.urdf", options_text), &file).unwrap();
     let imported = import_urdf(&folder.path().join("robot.urdf"), &options()).unwrap();
     assert_eq!(*read.system(), imported.description);
-    assert_eq!(*read.resolved_system(), imported.system);
+    assert_eq!(*read.resolved_system(), imported.resolved);
     assert_eq!(read.resolved().system_options, None);
     assert!(read.notes().iter().any(|note| note.contains("fixed to \"arm\"")));
 
@@ -216,6 +216,6 @@ fn a_base_may_have_shapes_of_its_own() {
         ..Base::default()
     };
     let mounted = SystemOptions { base: None, on: Some(on), ..options() };
-    let shapes = import(ROBOT, &mounted).unwrap().system.base.keep_out.unwrap();
+    let shapes = import(ROBOT, &mounted).unwrap().resolved.base.keep_out.unwrap();
     assert!(shapes[0].sphere.is_some() && shapes[1].cuboid.is_some());
 }

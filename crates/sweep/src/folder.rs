@@ -54,6 +54,21 @@ impl SweepFolder {
         &self.path
     }
 
+    /// [`plan`](Self::plan)s a sweep here, unless there are records that are not to be gone on with.
+    ///
+    /// # Errors
+    /// [`SweepError::Occupied`] when there are and this does not `resume` them; those of `plan` and
+    /// [`read_records`](Self::read_records).
+    pub fn begin(&self, sweep: &Sweep, version: &str, resume: bool) -> Result<(), SweepError> {
+        if !resume {
+            let records = self.read_records(|_| {})?.records;
+            if records > 0 {
+                return Err(SweepError::Occupied { folder: self.path.clone(), records });
+            }
+        }
+        self.plan(sweep, version)
+    }
+
     /// Writes `sweep.json` and makes room for records. `version` names the program.
     ///
     /// # Errors

@@ -66,6 +66,11 @@ pub struct SlewLimit {
 }
 
 impl Slews {
+    /// Whether slews about several axes are among what varies.
+    pub fn has_axes(&self) -> bool {
+        self.columns.iter().any(|column| column.field == AXIS)
+    }
+
     /// So many points a figure and a page can be opened with; a million are 200 MB of either.
     pub const MOST_POINTS: usize = 20_000;
 

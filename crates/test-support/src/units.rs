@@ -20,6 +20,13 @@ impl Units {
         let scale_inertia = |rows: &mut Option<[[f64; 3]; 3]>| {
             rows.iter_mut().flatten().flatten().for_each(|entry| *entry *= inertia);
         };
+        let scale_drive = |drive: &mut Option<file::Drive>| {
+            if let Some(drive) = drive {
+                drive.viscous_friction_n_m_s =
+                    drive.viscous_friction_n_m_s.map(|friction| friction * inertia / time);
+                drive.rotor_inertia_kg_m2 = drive.rotor_inertia_kg_m2.map(|rotor| rotor * inertia);
+            }
+        };
         let torque = inertia / time.powi(2);
         if let Some(mount) = &mut system.mount {
             mount.position_m = mount.position_m.map(|entry| entry * length);
@@ -54,11 +61,7 @@ impl Units {
             joint.jerk_max_deg_s3 =
                 joint.jerk_max_deg_s3.map(|jerk_deg_s3| jerk_deg_s3 / time.powi(3));
             joint.torque_max_n_m = joint.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
-            if let Some(drive) = &mut joint.drive {
-                drive.viscous_friction_n_m_s =
-                    drive.viscous_friction_n_m_s.map(|friction| friction * inertia / time);
-                drive.rotor_inertia_kg_m2 = drive.rotor_inertia_kg_m2.map(|rotor| rotor * inertia);
-            }
+            scale_drive(&mut joint.drive);
         }
         for link in &mut system.links {
             link.mass_kg *= mass;
@@ -69,11 +72,7 @@ impl Units {
             link.jerk_max_deg_s3 =
                 link.jerk_max_deg_s3.map(|jerk_deg_s3| jerk_deg_s3 / time.powi(3));
             link.torque_max_n_m = link.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
-            if let Some(drive) = &mut link.drive {
-                drive.viscous_friction_n_m_s =
-                    drive.viscous_friction_n_m_s.map(|friction| friction * inertia / time);
-                drive.rotor_inertia_kg_m2 = drive.rotor_inertia_kg_m2.map(|rotor| rotor * inertia);
-            }
+            scale_drive(&mut link.drive);
             link.center_of_mass_m.iter_mut().flatten().for_each(|entry| *entry *= length);
             scale_inertia(&mut link.inertia_kg_m2);
             link.radius_m = link.radius_m.map(|radius_m| radius_m * length);

@@ -31,14 +31,14 @@ pub(super) struct Pair {
     pub inner: Inner,
     /// What radii take of the distance between the segments, m.
     covered_m: f64,
-    /// Least distance, m: between surfaces, or of one from the base's center of mass.
+    /// Least distance, m: between surfaces, or of one from the origin of the body frame.
     pub least_m: f64,
 }
 
 /// What a solid of the arm keeps away from.
 #[derive(Clone, Debug)]
 pub(super) enum Inner {
-    /// A segment of the base, or the base's center of mass as one.
+    /// A segment of the base, or the origin of the body frame as one.
     Segment(Segment),
     /// A box of the base.
     Cuboid(Cuboid),

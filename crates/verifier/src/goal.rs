@@ -23,15 +23,8 @@ impl Goal {
     pub fn new(maneuver: &file::Maneuver, model: &Model, start: &State<'_>) -> Self {
         match maneuver.kind {
             file::ManeuverType::Slew => {
-                if let Some([w, x, y, z]) = maneuver.target_attitude {
-                    let target = Quaternion::new(w, x, y, z);
-                    return Self::Attitude(UnitQuaternion::from_quaternion(target));
-                }
-                // A slew without them was refused when the scenario was read.
-                let axis = Unit::new_normalize(Vector3::from(maneuver.axis.unwrap_or_default()));
-                let angle_rad = maneuver.angle_deg.unwrap_or(f64::NAN).to_radians();
-                let turn = UnitQuaternion::from_axis_angle(&axis, angle_rad);
-                Self::Attitude(UnitQuaternion::from_quaternion(start.attitude) * turn)
+                let start = UnitQuaternion::from_quaternion(start.attitude);
+                Self::to(maneuver.target_attitude, maneuver.axis, maneuver.angle_deg, &start)
             }
             file::ManeuverType::Detumble => {
                 Self::LessRate { stopped_deg_s: stopped_rate(model, start).norm().to_degrees() }
@@ -39,11 +32,28 @@ impl Goal {
         }
     }
 
+    /// A target attitude, or a turn by an angle about an axis from the attitude `start`.
+    pub fn to(
+        target_attitude: Option<[f64; 4]>,
+        axis: Option<[f64; 3]>,
+        angle_deg: Option<f64>,
+        start: &UnitQuaternion<f64>,
+    ) -> Self {
+        if let Some([w, x, y, z]) = target_attitude {
+            return Self::Attitude(UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)));
+        }
+        // A target without them was refused when the scenario was read.
+        let axis = Unit::new_normalize(Vector3::from(axis.unwrap_or_default()));
+        let angle_rad = angle_deg.unwrap_or(f64::NAN).to_radians();
+        Self::Attitude(start * UnitQuaternion::from_axis_angle(&axis, angle_rad))
+    }
+
     /// What a maneuver that ends in the state `end` has reached.
     pub fn reached(&self, end: &State<'_>) -> Terminal {
         let (attitude_error, attitude_error_deg) = match self {
             Self::Attitude(target) => {
-                let error = attitude_error(target, end);
+                // The quaternion from the target to the attitude reached.
+                let error = target.conjugate().into_inner() * end.attitude.normalize();
                 let vector = error.imag().norm();
                 (vector, 2.0 * vector.atan2(error.scalar().abs()).to_degrees())
             }
@@ -57,11 +67,6 @@ impl Goal {
             joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
         }
     }
-}
-
-/// The quaternion from an attitude to that of a state.
-pub(super) fn attitude_error(target: &UnitQuaternion<f64>, state: &State<'_>) -> Quaternion<f64> {
-    target.conjugate().into_inner() * state.attitude.normalize()
 }
 
 /// The base's rate, body axes, once the joints have stopped where they are in the state `start`: angular

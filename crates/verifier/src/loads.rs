@@ -7,12 +7,11 @@
 use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
-use crate::dormand_prince::DormandPrince;
 use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Subject, Worst};
-use crate::model::{Motion, State};
+use crate::model::State;
 use crate::requirements::Requirements;
-use crate::simulation::Simulation;
+use crate::simulation::{Follower, Simulation};
 
 /// Equal parts of a step at whose ends loads are looked at.
 const PARTS: usize = 5;
@@ -107,10 +106,8 @@ pub(super) fn check(
     }
     let model = &asked.model;
     let mut worst = Loads::new(limits);
-    let mut motion = Motion::new(model);
+    let mut follower = Follower::new(model);
     let mut torques = vec![0.0; model.joint_count()];
-    let mut control = vec![0.0; model.joint_count()];
-    let mut integrator = DormandPrince::new(asked.start.len());
     for (k, (interval, node)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate() {
         let accelerations = Accelerations::of(interval);
         let start_s = asked.horizon.time_s(k);
@@ -119,17 +116,12 @@ pub(super) fn check(
         for part in 0..=PARTS {
             if part > 0 {
                 let before_s = (part - 1) as f64 * part_s;
-                let followed = integrator.advance(&mut x, part_s, |after_s, x, rate| {
-                    accelerations.write(before_s + after_s, &mut control);
-                    model.state_derivative(x, &control, &mut motion, rate);
-                });
-                if !followed {
-                    x.fill(f64::NAN);
-                }
+                follower.advance(&mut x, accelerations, before_s, part_s);
             }
             let state = State::from_slice(&x);
-            accelerations.write(part as f64 * part_s, &mut control);
-            let mount = model.joint_torques(&state, &control, &mut motion, &mut torques);
+            let Follower { motion, control, .. } = &mut follower;
+            accelerations.write(part as f64 * part_s, control);
+            let mount = model.joint_torques(&state, control, motion, &mut torques);
             let time_s = Some(start_s + part as f64 * part_s);
             let of_joints = worst.torques.iter_mut().zip(&limits.torques_n_m).zip(&torques);
             for (joint, ((worst, limit), torque)) in of_joints.enumerate() {

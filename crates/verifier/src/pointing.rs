@@ -10,12 +10,11 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
-use crate::dormand_prince::DormandPrince;
 use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Worst};
-use crate::model::{Motion, State};
+use crate::model::State;
 use crate::requirements::Requirements;
-use crate::simulation::Simulation;
+use crate::simulation::{Follower, Simulation};
 
 /// How far base and axis turn in a part of an interval that is followed, rad. The bound is off by half of that at
 /// the most.
@@ -146,71 +145,52 @@ pub(super) fn check(
             let time_s = asked.horizon.time_s(k);
             cone.look(cone.angle_rad(&state.attitude, time_s), time_s, &mut between);
         }
-        let mut follower = Follower::new(asked);
+        let mut follower = Follower::new(&asked.model);
         let states = simulation.nodes().zip(simulation.nodes().skip(1));
         for (k, (interval, ends)) in trajectory.intervals().iter().zip(states).enumerate() {
             let start_s = asked.horizon.time_s(k);
             let duration_s = asked.horizon.time_s(k + 1) - start_s;
             let accelerations = Accelerations::of(interval);
-            follower.follow(cone, ends, accelerations, [start_s, duration_s], &mut between);
+            let times_s = [start_s, duration_s];
+            cone.look_within(ends, accelerations, times_s, &mut follower, &mut between);
         }
         ledger.add_of(at_nodes, &cone.name);
         ledger.add_of(between, &cone.name);
     }
 }
 
-/// Follows the motion within an interval.
-struct Follower<'a> {
-    asked: &'a Requirements,
-    motion: Motion,
-    integrator: DormandPrince,
-    control: Vec<f64>,
-}
-
-impl<'a> Follower<'a> {
-    fn new(asked: &'a Requirements) -> Self {
-        let integrator = DormandPrince::new(asked.start.len());
-        let control = vec![0.0; asked.model.joint_count()];
-        Self { asked, motion: Motion::new(&asked.model), integrator, control }
-    }
-
-    fn follow(
-        &mut self,
-        cone: &Cone,
+impl Cone {
+    /// Looks at the angles within an interval, along the motion that `follower` follows there.
+    fn look_within(
+        &self,
         (start, end): (State<'_>, State<'_>),
         accelerations: Accelerations<'_>,
         [start_s, duration_s]: [f64; 2],
+        follower: &mut Follower<'_>,
         worst: &mut Worst,
     ) {
         let rate = start.angular_rate.norm().max(end.angular_rate.norm());
-        let turn_rad = (INTERVAL_MARGIN * rate + cone.axis_rate_rad_s) * duration_s;
+        let turn_rad = (INTERVAL_MARGIN * rate + self.axis_rate_rad_s) * duration_s;
         let ends = [(&start, start_s), (&end, start_s + duration_s)];
-        let angles = ends.map(|(state, time_s)| cone.angle_rad(&state.attitude, time_s));
-        if cone.is_kept(cone.bound_rad(angles, turn_rad)) {
+        let angles = ends.map(|(state, time_s)| self.angle_rad(&state.attitude, time_s));
+        if self.is_kept(self.bound_rad(angles, turn_rad)) {
             return;
         }
         // A turn that is too large, or no number, is cut.
         let parts = ((turn_rad / TURN_RAD).ceil() as usize).clamp(1, MOST_PARTS);
         let part_s = duration_s / parts as f64;
-        let Self { asked, motion, integrator, control } = self;
         let mut x = start.to_vec();
         let (mut angle, mut rate) = (angles[0], start.angular_rate.norm());
         for part in 0..parts {
             let before_s = part as f64 * part_s;
-            let is_followed = integrator.advance(&mut x, part_s, |after_s, x, derivative| {
-                accelerations.write(before_s + after_s, control);
-                asked.model.state_derivative(x, control, motion, derivative);
-            });
-            if !is_followed {
-                x.fill(f64::NAN);
-            }
+            follower.advance(&mut x, accelerations, before_s, part_s);
             let there = State::from_slice(&x);
             let time_s = start_s + (part + 1) as f64 * part_s;
-            let next_angle = cone.angle_rad(&there.attitude, time_s);
+            let next_angle = self.angle_rad(&there.attitude, time_s);
             let next_rate = there.angular_rate.norm();
-            let turn_rad = (PART_MARGIN * rate.max(next_rate) + cone.axis_rate_rad_s) * part_s;
-            let bound_rad = cone.bound_rad([angle, next_angle], turn_rad);
-            cone.look(bound_rad, start_s + (part as f64 + 0.5) * part_s, worst);
+            let turn_rad = (PART_MARGIN * rate.max(next_rate) + self.axis_rate_rad_s) * part_s;
+            let bound_rad = self.bound_rad([angle, next_angle], turn_rad);
+            self.look(bound_rad, start_s + (part as f64 + 0.5) * part_s, worst);
             (angle, rate) = (next_angle, next_rate);
         }
     }

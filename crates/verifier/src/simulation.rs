@@ -7,6 +7,46 @@ use crate::dormand_prince::DormandPrince;
 use crate::joints::Accelerations;
 use crate::model::{Model, Motion, State};
 
+/// What follows the motion within the intervals of a trajectory.
+pub(super) struct Follower<'a> {
+    model: &'a Model,
+    pub motion: Motion,
+    /// The joint accelerations (j, rad/s²) that were looked at last.
+    pub control: Vec<f64>,
+    integrator: DormandPrince,
+}
+
+impl<'a> Follower<'a> {
+    pub fn new(model: &'a Model) -> Self {
+        let joints = model.joint_count();
+        Self {
+            model,
+            motion: Motion::new(model),
+            control: vec![0.0; joints],
+            integrator: DormandPrince::new(State::dimension(joints)),
+        }
+    }
+
+    /// Carries a state vector from `before_s` after the beginning of an interval on by `duration_s`; one that
+    /// cannot be followed is NaN from there on.
+    pub fn advance(
+        &mut self,
+        x: &mut [f64],
+        accelerations: Accelerations<'_>,
+        before_s: f64,
+        duration_s: f64,
+    ) {
+        let Self { model, motion, control, integrator } = self;
+        let followed = integrator.advance(x, duration_s, |after_s, x, rate| {
+            accelerations.write(before_s + after_s, control);
+            model.state_derivative(x, control, motion, rate);
+        });
+        if !followed {
+            x.fill(f64::NAN);
+        }
+    }
+}
+
 /// The motion that controls lead to, at every node.
 #[derive(Debug)]
 pub(super) struct Simulation {
@@ -24,22 +64,13 @@ impl Simulation {
         start: &[f64],
         intervals: &[ControlInterval],
     ) -> Self {
-        let mut motion = Motion::new(model);
-        let mut integrator = DormandPrince::new(start.len());
-        let mut control = vec![0.0; model.joint_count()];
+        let mut follower = Follower::new(model);
         let mut x = start.to_vec();
         let mut states = Vec::with_capacity(start.len() * (intervals.len() + 1));
         states.extend(&x);
         for (k, interval) in intervals.iter().enumerate() {
             let duration_s = horizon.time_s(k + 1) - horizon.time_s(k);
-            let accelerations = Accelerations::of(interval);
-            let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
-                accelerations.write(after_s, &mut control);
-                model.state_derivative(x, &control, &mut motion, rate);
-            });
-            if !followed {
-                x.fill(f64::NAN);
-            }
+            follower.advance(&mut x, Accelerations::of(interval), 0.0, duration_s);
             states.extend(&x);
         }
         Self { states, dimension: start.len() }

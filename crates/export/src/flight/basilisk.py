@@ -30,8 +30,6 @@ def decoded(text, shape):
 SIMULATOR = "Basilisk"
 
 NANOSECONDS = 1e9
-# How fast a tracked joint returns, 1/s.
-RETURN = 10.0
 # Of the steps from which accelerations are told, s.
 INSTANT = 1e-5
 
@@ -148,12 +146,6 @@ def torques_of_powers(substeps):
         rest = moment / length**2 - 2 * mean
         rows += [mean + rest, mean - rest]
     return np.array(rows)
-
-def planned(step, time_s):
-    """Angles and rates of the joints in a step of the plan."""
-    rates = RATES[step] + time_s * (ACCELERATIONS[step] + time_s * JERKS[step] / 2)
-    accelerations = ACCELERATIONS[step] + time_s * JERKS[step] / 3
-    return ANGLES[step] + time_s * (RATES[step] + time_s * accelerations / 2), rates
 
 
 def needed_at_peaks():

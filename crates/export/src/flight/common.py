@@ -1,3 +1,14 @@
+# How fast a tracked joint returns, 1/s.
+RETURN = 10.0
+
+
+def planned(step, time_s):
+    """Angles and rates of the joints in a step of the plan."""
+    rates = RATES[step] + time_s * (ACCELERATIONS[step] + time_s * JERKS[step] / 2)
+    accelerations = ACCELERATIONS[step] + time_s * JERKS[step] / 3
+    return ANGLES[step] + time_s * (RATES[step] + time_s * accelerations / 2), rates
+
+
 def percent(torques):
     """The largest of these torques in percent of its joint's peak, where that is one."""
     peaks = np.abs(TORQUES).max(axis=0)

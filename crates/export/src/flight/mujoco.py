@@ -26,10 +26,6 @@ def decoded(text, shape):
 SIMULATOR = "MuJoCo"
 
 
-# How fast a tracked joint returns, 1/s.
-RETURN = 10.0
-
-
 def fly(step_s, track):
     """The flight in steps of at most `step_s`."""
     substeps = max(1, round(np.ceil((TIMES[1] - TIMES[0]) / step_s - 1e-6)))
@@ -83,9 +79,3 @@ def reduced(model, data):
     bias = data.qfrc_bias
     of_base = np.linalg.solve(mass[:6, :6], np.c_[mass[:6, 6:], bias[:6]])
     return mass[6:, 6:] - mass[6:, :6] @ of_base[:, :-1], bias[6:] - mass[6:, :6] @ of_base[:, -1]
-
-def planned(step, time_s):
-    """Angles and rates of the joints in a step of the plan."""
-    rates = RATES[step] + time_s * (ACCELERATIONS[step] + time_s * JERKS[step] / 2)
-    accelerations = ACCELERATIONS[step] + time_s * JERKS[step] / 3
-    return ANGLES[step] + time_s * (RATES[step] + time_s * accelerations / 2), rates

@@ -82,10 +82,10 @@ impl Constants {
     }
 
     /// The script: `template`, which flies the plan, with these constants where it says `# CONSTANTS`, and
-    /// what every script does with the outcome.
+    /// what every script has in common.
     pub fn into_script(self, template: &str) -> Vec<u8> {
         let flight = template.replacen("# CONSTANTS\n", &self.text, 1);
-        [&flight, "\n\n", include_str!("outcome.py")].concat().into_bytes()
+        [&flight, "\n\n", include_str!("common.py")].concat().into_bytes()
     }
 }
 

@@ -166,7 +166,8 @@ impl<'a> Search<'a> {
         let guess = started.elapsed();
 
         let started = Instant::now();
-        let is_part = self.ranking.asked_steps < self.grid.steps();
+        // A plan that is gone on with is one over the whole horizon.
+        let is_part = continued.is_none() && self.ranking.asked_steps < self.grid.steps();
         let mut found = continued;
         for place in 0..self.coarse.len().min(MOST_REFINED) {
             let solution = self.coarse[place].clone();
@@ -176,7 +177,7 @@ impl<'a> Search<'a> {
             }
         }
         let (solution, is_minimum) = match found {
-            Some(solution) if is_part && !self.coarse.is_empty() => (solution, true),
+            Some(solution) if is_part => (solution, true),
             Some(solution) => self.finished(solution)?,
             None => {
                 let solution = self.solved_from_constant_guess()?;

@@ -84,10 +84,9 @@ pub(crate) fn delivered(scenario: &Scenario) -> Settings {
 /// Of a solve from a plan of the very problem, without its multipliers. Those of the bounds are what the plan leaves
 /// of the bound tells: the barrier parameter that it ended with over the multiplier.
 pub(crate) fn from_own_plan(delivered: Settings) -> Settings {
-    let Options { tolerance, barrier_tol_factor, .. } = delivered.ipopt;
     Settings {
         ipopt: Options {
-            mu_init: tolerance / (barrier_tol_factor + 1.0),
+            mu_init: delivered.ipopt.last_barrier_parameter(),
             bound_mult_init_method: MultiplierInitialization::MuBased,
             constr_mult_init_max: LARGEST_MULTIPLIER,
             bound_push: SMALLEST_PUSH,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Something of the base that the arm keeps out of: one of a sphere, a capsule and a box, in body axes from
-/// the base's center of mass.
+/// the origin of the body frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `sphere`, `capsule` or `box`")]
 #[schemars(extend("minProperties" = 1, "maxProperties" = 1))]

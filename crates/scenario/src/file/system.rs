@@ -85,6 +85,16 @@ pub struct Base {
     pub keep_out: Option<Vec<KeepOut>>,
 }
 
+/// What the base is called where nothing is said.
+const BASE: &str = "base";
+
+impl Base {
+    /// Its name, or what it is called without one.
+    pub fn name(&self) -> &str {
+        self.name.as_deref().unwrap_or(BASE)
+    }
+}
+
 /// Where the arm's frame 0 sits on the base.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `position_m`")]

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 pub struct Pose {
     /// Turns vectors of the frame into body axes.
     pub rotation: Matrix3<f64>,
-    /// The frame's origin from the base's center of mass, m.
+    /// The frame's origin from the origin of the body frame, m.
     pub origin: Vector3<f64>,
 }
 

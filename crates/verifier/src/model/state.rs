@@ -6,7 +6,7 @@ use righting_results::trajectory::Node;
 /// A view of a state: where the base is, how it moves, and every joint.
 #[derive(Clone, Copy, Debug)]
 pub struct State<'a> {
-    /// r, of the base's center of mass, inertial, m.
+    /// r, of the origin of the body frame, inertial, m.
     pub position: Vector3<f64>,
     /// q_BN, from body to inertial axes; of unit length but for the errors of an integration.
     pub attitude: Quaternion<f64>,
