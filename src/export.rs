@@ -81,7 +81,7 @@ fn exported(
         Format::Urdf => urdf(system).into_bytes(),
         Format::Mjcf => mjcf(system, trajectory).into_bytes(),
         Format::JointTrajectory => {
-            let motion = JointTrajectory::new(system, trajectory)?;
+            let motion = JointTrajectory::new(scenario, trajectory)?;
             let is_json = file.extension().is_some_and(|extension| extension == "json");
             if is_json { motion.to_json() } else { motion.to_yaml() }.into_bytes()
         }

@@ -87,7 +87,7 @@ fn contents(
                 "urdf" => urdf(system).into_bytes(),
                 "mjcf" => mjcf(system, trajectory).into_bytes(),
                 "joint-trajectory" => {
-                    let motion = JointTrajectory::new(system, trajectory)?;
+                    let motion = JointTrajectory::new(scenario, trajectory)?;
                     let is_json = file.extension().is_some_and(|extension| extension == "json");
                     if is_json { motion.to_json() } else { motion.to_yaml() }.into_bytes()
                 }

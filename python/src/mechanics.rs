@@ -18,7 +18,7 @@ pub fn full_dynamics(model: &System, order: usize) -> Outcome<Function> {
     let joints = model.joint_count();
     traced(|| {
         let (x, u) = (Expr::symbols("x", 13 + 2 * joints), Expr::symbols("u", joints));
-        let rates = model.state_derivative(&x, &u);
+        let rates = model.state_derivative(&x, &u, None);
         Equations { name: "full_dynamics", variables: &[("x", &x), ("u", &u)], parameters: &[] }
             .compiled("rates", &rates, order)
     })
@@ -54,7 +54,7 @@ pub fn joint_torques(model: &System, order: usize) -> Outcome<Function> {
         let angles = Expr::symbols("joint_angles", joints);
         let rates = Expr::symbols("joint_rates", joints);
         let accelerations = Expr::symbols("joint_accelerations", joints);
-        let torques = model.joint_torques(&vector(&omega), &angles, &rates, &accelerations);
+        let torques = model.joint_torques(&vector(&omega), &angles, &rates, &accelerations, None);
         let variables: [(&str, &[Expr]); 4] = [
             ("angular_rate", &omega),
             ("joint_angles", &angles),

@@ -12,7 +12,7 @@
 //! without any torque, is the check.
 
 use nalgebra::Vector3;
-use righting_multibody::{State, System};
+use righting_multibody::{Quaternion, State};
 use righting_results::FiniteOrNull;
 use righting_results::trajectory::{ControlInterval, Node, Trajectory};
 use righting_scenario::error::ShapeError;
@@ -144,7 +144,7 @@ impl PowerProfile {
             trajectory.nodes().iter().zip(trajectory.intervals()).enumerate()
         {
             let (start_s, end_s) = (horizon.time_s(k), horizon.time_s(k + 1));
-            instants.extend(within(model, &mut integrator, node, interval, [start_s, end_s]));
+            instants.extend(within(scenario, &mut integrator, node, interval, [start_s, end_s]));
         }
         let energy_j = |node: &Node| model.kinetic_energy(&node.state());
         Ok(Self {
@@ -218,12 +218,13 @@ impl PowerProfile {
 /// The joints at the points of one interval, from `start_s` to `end_s`. From a state that cannot be
 /// followed, all later ones are NaN.
 fn within(
-    model: &System,
+    scenario: &Scenario,
     integrator: &mut DormandPrince,
     node: &Node,
     interval: &ControlInterval,
     [start_s, end_s]: [f64; 2],
 ) -> Vec<Instant> {
+    let model = &scenario.system().model;
     let length_s = end_s - start_s;
     let mut reached = 0.0;
     let mut x = node.state().to_vec();
@@ -233,7 +234,11 @@ fn within(
             let duration_s = (place - reached) * length_s;
             let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
                 let control = interval.joint_accelerations_after(before_s + after_s);
-                rate.copy_from_slice(&model.state_derivative(x, &control));
+                let time_s = start_s + before_s + after_s;
+                let attitude = Quaternion::from_array([x[3], x[4], x[5], x[6]]);
+                let external = scenario.external(&attitude, time_s);
+                let derivative = model.state_derivative(x, &control, external.as_ref());
+                rate.copy_from_slice(&derivative);
             });
             if !followed {
                 x.fill(f64::NAN);
@@ -244,12 +249,14 @@ fn within(
         let rate: &Vector3<f64> = &state.angular_rate;
         let control = interval.joint_accelerations_after(place * length_s);
         let (angles, rates) = (&state.joint_angles, &state.joint_rates);
-        let base = model.base_acceleration(rate, angles, rates, &control);
-        let dynamics = model.inverse_dynamics(&base, rate, angles, rates, &control);
+        let time_s = if place == 1.0 { end_s } else { start_s + place * length_s };
+        let external = scenario.external(&state.attitude, time_s);
+        let dynamics =
+            model.free_floating_dynamics(rate, angles, rates, &control, external.as_ref());
         let torques = dynamics.joint_torques;
         let powers = torques.iter().zip(&state.joint_rates).map(|(torque, rate)| torque * rate);
         Some(Instant {
-            time_s: if place == 1.0 { end_s } else { start_s + place * length_s },
+            time_s,
             weight_s: weight * length_s,
             joint_powers_w: powers.collect(),
             joint_torques_n_m: torques,

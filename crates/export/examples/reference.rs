@@ -81,7 +81,7 @@ fn sample(system: &SystemDescription, random: &mut dyn FnMut() -> f64) -> serde_
     }
     let forces =
         |omega: &Vector3<f64>, base: &BaseAcceleration<f64>, rates: &[f64], joints: &[f64]| {
-            let found = model.inverse_dynamics(base, omega, &q, rates, joints);
+            let found = model.inverse_dynamics(base, omega, &q, rates, joints, None);
             let of_base = found.base_force.iter().chain(found.base_moment.iter()).copied();
             of_base.chain(found.joint_torques).collect::<Vec<f64>>()
         };

@@ -70,7 +70,7 @@ impl Flight {
                 }
             }
         }
-        let torques = StepTorques::new(&scenario.system().model, trajectory)?;
+        let torques = StepTorques::new(scenario, trajectory)?;
         let mut torque_coefficients = Vec::new();
         for of_joints in &torques.coefficients {
             let rows = (0..COEFFICIENTS)

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use righting_multibody::Quaternion;
 use righting_results::{Node, Trajectory};
-use righting_scenario::SystemDescription;
+use righting_scenario::Scenario;
 use serde::Serialize;
 
 use crate::ExportError;
@@ -48,11 +49,12 @@ struct Duration {
 }
 
 impl JointTrajectory {
-    /// The motion of a system's joints.
+    /// The motion of a plan's joints.
     ///
     /// # Errors
     /// [`ExportError::Steps`] where nodes are less than a nanosecond apart.
-    pub fn new(system: &SystemDescription, trajectory: &Trajectory) -> Result<Self, ExportError> {
+    pub fn new(scenario: &Scenario, trajectory: &Trajectory) -> Result<Self, ExportError> {
+        let system = scenario.system();
         let limits = &system.joint_limits;
         let turning: Vec<usize> =
             (0..limits.len()).filter(|&joint| !limits[joint].is_locked()).collect();
@@ -61,12 +63,16 @@ impl JointTrajectory {
             let accelerations = trajectory.joint_accelerations_at(k);
             let torques = match trajectory.intervals().get(k) {
                 Some(interval) => interval.joint_torques_n_m.clone(),
-                None => system.model.joint_torques(
-                    &node.angular_rate_rad_s.into(),
-                    &node.joint_angles_rad,
-                    &node.joint_rates_rad_s,
-                    &accelerations,
-                ),
+                None => {
+                    let attitude = Quaternion::from_array(node.attitude);
+                    system.model.joint_torques(
+                        &node.angular_rate_rad_s.into(),
+                        &node.joint_angles_rad,
+                        &node.joint_rates_rad_s,
+                        &accelerations,
+                        scenario.external(&attitude, node.time_s).as_ref(),
+                    )
+                }
             };
             Point {
                 positions: pick(&node.joint_angles_rad),

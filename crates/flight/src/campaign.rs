@@ -175,7 +175,8 @@ impl<'a> Campaign<'a> {
     }
 
     fn plant(&self, system: &file::System) -> Plant {
-        Plant::new(system, &State::of_node(self.plan.start()))
+        let environment = self.scenario.resolved().environment.as_ref();
+        Plant::new(system, environment, &State::of_node(self.plan.start()))
     }
 
     fn step_s(&self, step: usize) -> f64 {

@@ -9,19 +9,20 @@
 //! ```
 //!
 //! N, the moment about the system's centre of mass, is dH/dt + ω × H of DESIGN's equations without
-//! its ω̇. Forces obey the recursion of [`Coupling`](crate::coupling::Coupling) as momenta do:
+//! its ω̇; where a couple acts from outside, it stands in the place of the first zero. Forces obey the recursion of [`Coupling`](crate::coupling::Coupling) as momenta do:
 //!
 //! ```text
 //! f' = f + g̈,         N' = N + b × f + F × b̈ + (C's own moment)
 //! ```
 
 use crate::algebra::{
-    PlaneRotation, combination, constant_matrix_product, constant_rotation, cross, offset_by,
-    plus_multiple, sum, zero,
+    PlaneRotation, combination, constant_matrix_product, constant_rotation, cross, difference,
+    offset_by, plus_multiple, sum, zero,
 };
 use crate::branches::{Beyond, Branches};
 use crate::composite::SweepAxes;
 use crate::coupling::Coupling;
+use crate::external::External;
 use crate::inertia::inertia;
 use crate::sweep::{SweepRotations, TurnedCoupling};
 use crate::system::System;
@@ -195,7 +196,7 @@ fn joint_spin<T: Scalar>(spins: &[Spins<T>], joint: Option<usize>) -> Option<Spi
 
 impl System {
     /// ω̇ and r̈₀ of the free-floating base turning at `omega` (body axes, rad/s) while its joints
-    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²). No force acts from outside.
+    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²). Nothing acts from outside but `external`.
     ///
     /// # Panics
     /// A slice does not have one value a joint.
@@ -205,6 +206,7 @@ impl System {
         q: &[T],
         qdot: &[T],
         qddot: &[T],
+        external: Option<&External<T>>,
     ) -> BaseAcceleration<T> {
         self.assert_joint_slice(q);
         self.assert_joint_slice(qdot);
@@ -243,7 +245,14 @@ impl System {
         }
         let own = cross(&omega, &constant_matrix_product(&inertia(&root.second), &omega));
         let moment = sum(&load.angular, &own);
-        let angular = moments.with_base(tree).inertia().solve(&moment.map(|entry| -entry));
+        let missing = match external {
+            None => moment.map(|entry| -entry),
+            Some(external) => {
+                let given = axes.to_sweep(&self.external_moment(external, q));
+                difference(&given, &moment)
+            }
+        };
+        let angular = moments.with_base(tree).inertia().solve(&missing);
 
         let first = offset_by(&moments.first, &root.first);
         let steady_force = sum(&load.linear, &steady.acceleration_of(&root.first));

@@ -5,10 +5,11 @@
 
 use crate::algebra::{
     PlaneRotation, constant, constant_cross, constant_matrix_product, constant_rotation, cross,
-    dot, sum, zero,
+    difference, dot, sum, zero,
 };
 use crate::bodies::Placement;
 use crate::dynamics::{BaseAcceleration, Spin};
+use crate::external::{External, GravityGradient};
 use crate::inertia::{MassMoments, inertia};
 use crate::state::State;
 use crate::sweep::{Pair, joint_rotations};
@@ -41,10 +42,13 @@ pub struct MountLoad<T> {
 }
 
 /// Motion of a frame: its spin, and velocity or acceleration of its origin, in its own axes.
+///
+/// Where there is a gravity gradient, accelerations are those beyond the pull there: both are linear in the place.
 #[derive(Clone, Copy)]
 struct Motion<T> {
     spin: Spin<T>,
     origin: Vector3<T>,
+    gravity_gradient: Option<GravityGradient<T>>,
 }
 
 impl<T: Scalar> Motion<T> {
@@ -52,6 +56,7 @@ impl<T: Scalar> Motion<T> {
         Self {
             spin: self.spin.rotated_back(rotation),
             origin: constant_rotation(&rotation.transpose(), &self.origin),
+            gravity_gradient: self.gravity_gradient.map(|gradient| gradient.rotated_back(rotation)),
         }
     }
 
@@ -59,24 +64,38 @@ impl<T: Scalar> Motion<T> {
         Self {
             spin: self.spin.plus_turning(rate, acceleration).turned_back(rotation),
             origin: rotation.turn_back(&self.origin),
+            gravity_gradient: self.gravity_gradient.map(|gradient| gradient.turned_back(rotation)),
+        }
+    }
+
+    /// By how much more than the origin a point fixed in the frame accelerates, times a mass if the vector to
+    /// it is.
+    fn acceleration_of(&self, vector: &Vector3<f64>) -> Vector3<T> {
+        let swing = self.spin.acceleration_of(vector);
+        match &self.gravity_gradient {
+            None => swing,
+            Some(gradient) => difference(&swing, &gradient.acceleration(&constant(vector))),
         }
     }
 
     /// Force and moment about the frame's origin that accelerate a body fixed in the frame.
     fn load_of(&self, body: &MassMoments) -> Pair<T> {
-        let swing = self.spin.acceleration_of(&body.first);
+        let swing = self.acceleration_of(&body.first);
+        let inertia = inertia(&body.second);
+        let mut own = self.spin.moment_of(&inertia);
+        if let Some(gradient) = &self.gravity_gradient {
+            let along = constant_matrix_product(&inertia, &gradient.nadir);
+            own = difference(&own, &gradient.moment(&along));
+        }
         Pair {
             linear: sum(&self.origin.map(|entry| entry * body.mass), &swing),
-            angular: sum(
-                &self.spin.moment_of(&inertia(&body.second)),
-                &constant_cross(&body.first, &self.origin),
-            ),
+            angular: sum(&own, &constant_cross(&body.first, &self.origin)),
         }
     }
 
     /// Kinetic energy of a body fixed in the frame, the origin's motion being its velocity.
     fn energy_of(&self, body: &MassMoments) -> T {
-        let Self { spin: Spin { rate, .. }, origin } = self;
+        let Self { spin: Spin { rate, .. }, origin, .. } = self;
         let first = constant_cross(&body.first, origin);
         let own = constant_matrix_product(&inertia(&body.second), rate).map(|entry| entry * 0.5);
         dot(origin, origin) * (0.5 * body.mass) + dot(rate, &sum(&first, &own))
@@ -85,7 +104,8 @@ impl<T: Scalar> Motion<T> {
 
 impl System {
     /// The torques and the load from outside for which the base accelerates as given, turning at
-    /// `omega` (body axes, rad/s), with joints at `q`, `qdot`, `qddot` (j each).
+    /// `omega` (body axes, rad/s), with joints at `q`, `qdot`, `qddot` (j each), while a gravity gradient pulls
+    /// at all bodies if there is one.
     ///
     /// # Panics
     /// A slice does not have one value a joint.
@@ -96,20 +116,29 @@ impl System {
         q: &[T],
         qdot: &[T],
         qddot: &[T],
+        gravity_gradient: Option<GravityGradient<T>>,
     ) -> InverseDynamics<T> {
         self.assert_joint_slice(q);
         self.assert_joint_slice(qdot);
         self.assert_joint_slice(qddot);
         let tree = &self.tree;
-        let body =
-            Motion { spin: Spin { rate: *omega, acceleration: base.angular }, origin: base.linear };
+        let mut body = Motion {
+            spin: Spin { rate: *omega, acceleration: base.angular },
+            origin: base.linear,
+            gravity_gradient,
+        };
+        if let Some(gradient) = gravity_gradient {
+            // The origin's place from the center of mass, the other way round.
+            let pull = gradient.acceleration(&self.center_of_mass(q));
+            body.origin = sum(&body.origin, &pull);
+        }
         let rotations = joint_rotations(tree, q);
         let mut motions: Vec<Motion<T>> = Vec::with_capacity(q.len());
         let mut loads = Vec::with_capacity(q.len());
         for (k, joint) in tree.joints.iter().enumerate() {
             let Placement { position_m, rotation } = tree.start(k);
             let parent = joint.parent.map_or(body, |parent| motions[parent]);
-            let next = sum(&parent.origin, &parent.spin.acceleration_of(&position_m));
+            let next = sum(&parent.origin, &parent.acceleration_of(&position_m));
             let before = Motion { origin: next, ..parent }.rotated_back(&rotation);
             let at = joint.coordinate;
             let motion = before.turned(&rotations[k], qdot[at], qddot[at]);
@@ -150,16 +179,30 @@ impl System {
     }
 
     /// Joint torques (j, N m) of the free-floating system turning at `omega` (body axes, rad/s)
-    /// with joints at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²).
+    /// with joints at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²). Nothing acts from outside but `external`.
     pub fn joint_torques<T: Scalar>(
         &self,
         omega: &Vector3<T>,
         q: &[T],
         qdot: &[T],
         qddot: &[T],
+        external: Option<&External<T>>,
     ) -> Vec<T> {
-        let base = self.base_acceleration(omega, q, qdot, qddot);
-        self.inverse_dynamics(&base, omega, q, qdot, qddot).joint_torques
+        self.free_floating_dynamics(omega, q, qdot, qddot, external).joint_torques
+    }
+
+    /// [`inverse_dynamics`](Self::inverse_dynamics) of the free-floating system, whose base accelerates as it must.
+    pub fn free_floating_dynamics<T: Scalar>(
+        &self,
+        omega: &Vector3<T>,
+        q: &[T],
+        qdot: &[T],
+        qddot: &[T],
+        external: Option<&External<T>>,
+    ) -> InverseDynamics<T> {
+        let base = self.base_acceleration(omega, q, qdot, qddot, external);
+        let gradient = external.and_then(|external| external.gravity_gradient);
+        self.inverse_dynamics(&base, omega, q, qdot, qddot, gradient)
     }
 
     /// Kinetic energy in inertial axes, J.
@@ -174,6 +217,7 @@ impl System {
         let body = Motion {
             spin: Spin { rate: state.angular_rate, acceleration: zero() },
             origin: state.attitude.to_body(&state.velocity),
+            gravity_gradient: None,
         };
         let rotations = joint_rotations(tree, &state.joint_angles);
         let swing = |motion: &Motion<T>, position: &Vector3<f64>| {

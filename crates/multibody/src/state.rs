@@ -1,6 +1,7 @@
 //! The state of the full form, x = [r, q_BN, ṙ, ω, q, q̇] ∈ R^{13+2j}.
 
 use crate::attitude::Quaternion;
+use crate::external::External;
 use crate::system::System;
 use nalgebra::Vector3;
 use righting_scalar::Scalar;
@@ -59,14 +60,20 @@ impl<T: Scalar> State<T> {
 }
 
 impl System {
-    /// ẋ of the full form for the state x ∈ R^{13+2j} and joint accelerations u ∈ R^j (rad/s²).
+    /// ẋ of the full form for the state x ∈ R^{13+2j} and joint accelerations u ∈ R^j (rad/s²). Nothing acts from
+    /// outside but `external`.
     ///
     /// # Panics
     /// `x` or `u` does not have the length this system's have.
-    pub fn state_derivative<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
+    pub fn state_derivative<T: Scalar>(
+        &self,
+        x: &[T],
+        u: &[T],
+        external: Option<&External<T>>,
+    ) -> Vec<T> {
         let state = State::from_slice(x).expect("a state vector has 13 + 2j elements");
         let State { attitude, velocity, angular_rate, joint_angles, joint_rates, .. } = &state;
-        let base = self.base_acceleration(angular_rate, joint_angles, joint_rates, u);
+        let base = self.base_acceleration(angular_rate, joint_angles, joint_rates, u, external);
         State {
             position: *velocity,
             attitude: attitude.rate(angular_rate),

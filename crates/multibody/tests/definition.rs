@@ -45,7 +45,7 @@ proptest! {
     #[test]
     fn accelerations((system, state, u) in random::motion()) {
         let State { angular_rate, joint_angles: q, joint_rates: qdot, .. } = &state;
-        let base = system.base_acceleration(angular_rate, q, qdot, &u);
+        let base = system.base_acceleration(angular_rate, q, qdot, &u, None);
         let (angular, linear) =
             definition::base_acceleration(&system, angular_rate, q, qdot, &u);
         assert_near(base.angular.as_slice(), angular.as_slice(), 1e-10, 1.0);

@@ -21,7 +21,7 @@ fn reduced<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
 
 fn full<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let (x, u) = y.split_at(13 + 2 * system.joint_count());
-    system.state_derivative(x, u)
+    system.state_derivative(x, u, None)
 }
 
 fn torques<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {

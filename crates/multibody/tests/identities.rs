@@ -5,13 +5,13 @@ mod support;
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual, Dual64};
 use proptest::prelude::*;
-use righting_multibody::{Quaternion, State, System};
+use righting_multibody::{External, GravityGradient, Quaternion, State, System};
 use support::{assert_near, random, table_one};
 
 /// The state on its way: every element with its time derivative.
 fn moving(system: &System, state: &State<f64>, u: &[f64]) -> State<Dual64> {
     let x = state.to_vec();
-    let xdot = system.state_derivative(&x, u);
+    let xdot = system.state_derivative(&x, u, None);
     let dual: Vec<Dual64> = x.iter().zip(&xdot).map(|(x, v)| Dual::new(*x, *v)).collect();
     State::from_slice(&dual).unwrap()
 }
@@ -39,7 +39,7 @@ proptest! {
     #[test]
     fn work_is_the_change_of_energy((system, state, u) in random::motion()) {
         let State { angular_rate, joint_angles: q, joint_rates: qdot, .. } = &state;
-        let torques = system.joint_torques(angular_rate, q, qdot, &u);
+        let torques = system.joint_torques(angular_rate, q, qdot, &u, None);
         let power: f64 = torques.iter().zip(qdot).map(|(torque, rate)| torque * rate).sum();
         let energy = system.kinetic_energy(&moving(&system, &state, &u));
         assert_near(&[power], &[energy.eps], 1e-10, energy.re);
@@ -50,8 +50,8 @@ proptest! {
     fn torques_are_lagrange_s((system, state, u) in random::motion()) {
         let State { attitude, velocity, angular_rate, joint_angles: q, joint_rates: qdot, .. } =
             &state;
-        let base = system.base_acceleration(angular_rate, q, qdot, &u);
-        let torques = system.joint_torques(angular_rate, q, qdot, &u);
+        let base = system.base_acceleration(angular_rate, q, qdot, &u, None);
+        let torques = system.joint_torques(angular_rate, q, qdot, &u, None);
         let v = attitude.to_body(velocity);
         let v_dot = base.linear - angular_rate.cross(&v);
         let along = |x: &[f64], dx: &[f64]| -> Vec<Dual<Dual64>> {
@@ -86,11 +86,36 @@ proptest! {
     #[test]
     fn nothing_pushes_a_free_floating_base((system, state, u) in random::motion()) {
         let State { angular_rate, joint_angles: q, joint_rates: qdot, .. } = &state;
-        let base = system.base_acceleration(angular_rate, q, qdot, &u);
-        let load = system.inverse_dynamics(&base, angular_rate, q, qdot, &u);
+        let base = system.base_acceleration(angular_rate, q, qdot, &u, None);
+        let load = system.inverse_dynamics(&base, angular_rate, q, qdot, &u, None);
         let scale = momentum_scale(&system, q);
         assert_near(load.base_force.as_slice(), &[0.0; 3], 1e-11, 10.0 * scale);
         assert_near(load.base_moment.as_slice(), &[0.0; 3], 1e-11, 10.0 * scale);
+    }
+
+    /// Two recursions that share nothing: a couple on the base is all that is left of what acts from outside once
+    /// the gravity gradient has pulled at every body.
+    #[test]
+    fn what_acts_from_outside_is_all_that_pushes_the_base((system, state, u) in random::motion()) {
+        let State { attitude, angular_rate, joint_angles: q, joint_rates: qdot, .. } = &state;
+        let external = External {
+            torque: Vector3::new(0.3, -0.2, 0.5),
+            gravity_gradient: Some(GravityGradient {
+                nadir: attitude.to_body(&Vector3::new(0.6, 0.0, -0.8)),
+                rate_squared: 0.7,
+            }),
+        };
+        let load = system.free_floating_dynamics(angular_rate, q, qdot, &u, Some(&external));
+        let scale = momentum_scale(&system, q);
+        assert_near(load.base_force.as_slice(), &[0.0; 3], 1e-11, 10.0 * scale);
+        assert_near(load.base_moment.as_slice(), external.torque.as_slice(), 1e-11, 10.0 * scale);
+        // Momentum changes by their moment.
+        let moment = attitude.to_inertial(&system.external_moment(&external, q));
+        let xdot = system.state_derivative(&state.to_vec(), &u, Some(&external));
+        let x = state.to_vec().into_iter().zip(xdot).map(|(x, v)| Dual::new(x, v));
+        let moving = State::from_slice(&x.collect::<Vec<Dual64>>()).unwrap();
+        let momentum = system.inertial_angular_momentum(&moving).map(|x| x.eps);
+        assert_near(momentum.as_slice(), moment.as_slice(), 1e-11, 10.0 * scale);
     }
 
     #[test]
@@ -189,7 +214,7 @@ fn both_forms_move_alike() {
         let mut reduced: Vec<f64> = start.attitude.to_array().to_vec();
         reduced.extend(start.joint_angles.iter().chain(&start.joint_rates));
         for _ in 0..200 {
-            full = runge_kutta(&full, 0.025, |x| system.state_derivative(x, &u));
+            full = runge_kutta(&full, 0.025, |x| system.state_derivative(x, &u, None));
             reduced = runge_kutta(&reduced, 0.025, |y| {
                 let attitude = Quaternion::new(y[0], y[1], y[2], y[3]);
                 let (q, qdot) = y[4..].split_at(j);

@@ -41,7 +41,7 @@ fn attitude_rate<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
 /// y = (x, u): ẋ of the full form.
 fn state_derivative<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let (x, u) = y.split_at(13 + 2 * system.joint_count());
-    system.state_derivative(x, u)
+    system.state_derivative(x, u, None)
 }
 
 /// y = (ω, q, q̇, q̈): ω̇.
@@ -49,7 +49,7 @@ fn base_acceleration<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let j = system.joint_count();
     let (q, rest) = y[3..].split_at(j);
     let omega = Vector3::new(y[0], y[1], y[2]);
-    system.base_acceleration(&omega, q, &rest[..j], &rest[j..]).angular.as_slice().to_vec()
+    system.base_acceleration(&omega, q, &rest[..j], &rest[j..], None).angular.as_slice().to_vec()
 }
 
 /// y = (ω, q, q̇, q̈): torques.

@@ -156,14 +156,17 @@ fn trajectory(
             coordinates.move_joints(&mut joints, controls, step_s);
         }
         let accelerations = scaling.accelerations(&accelerations);
+        let time_s = scenario.horizon().time_s(k);
+        let external = scenario.external(&state.attitude, time_s);
         let torques = system.joint_torques(
             &state.angular_rate,
             &state.joint_angles,
             &state.joint_rates,
             &accelerations,
+            external.as_ref(),
         );
         nodes.push(Node {
-            time_s: scenario.horizon().time_s(k),
+            time_s,
             position_m: state.position.into(),
             attitude: state.attitude.to_array(),
             velocity_m_s: state.velocity.into(),

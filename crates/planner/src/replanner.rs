@@ -45,7 +45,7 @@ pub struct Replan {
 /// Plans what is left of a maneuver from measured states, on the steps that are left of its grid.
 ///
 /// The problem's functions are traced and compiled once. Each solve starts from the part that is left of the
-/// last solution, with its multipliers; momentum is that of the scenario's start, which nothing changes. Solves
+/// last solution, with its multipliers; momentum is that of the plan at the node, whatever is measured. Solves
 /// are the interior solver's ([`Optimizer::Interior`]), so that many replanners may work at a time.
 ///
 /// A clone shares the compiled functions and goes its own way from where this one is.
@@ -65,6 +65,8 @@ struct Problem {
     settings: Settings,
     /// The asked grid.
     grid: Grid,
+    /// Angular momentum at its nodes, inertial axes, as far as that is among the states.
+    momenta: Samples,
 }
 
 impl Replanner {
@@ -111,8 +113,12 @@ impl Replanner {
         let guesses = model.initial_guesses(&scenario, grid.steps());
         let guess = guesses.along_trajectory(&scaling.trajectory(plan));
         let from_plan = settings::from_own_plan(settings.clone());
-        let point = model.solve(grid, guess, &from_plan, |_| Control::Continue)?.point;
-        Ok(Self { problem: Arc::new(Problem { scaling, scenario, model, settings, grid }), point })
+        let solution = model.solve(grid, guess, &from_plan, |_| Control::Continue)?;
+        let momentum = model.coordinates.momentum();
+        let mut momenta = Samples::new(momentum.len());
+        solution.states.rows().for_each(|row| momenta.push(&row[momentum.clone()]));
+        let problem = Problem { scaling, scenario, model, settings, grid, momenta };
+        Ok(Self { problem: Arc::new(problem), point: solution.point })
     }
 
     /// Plans the steps from node `node` on, where the maneuver is as measured. None where the solve does not
@@ -130,12 +136,16 @@ impl Replanner {
         deadline: Option<Duration>,
     ) -> Result<Option<Replan>, OcpError> {
         let started = Instant::now();
-        let Problem { scaling, scenario, model, settings, grid } = &*self.problem;
+        let Problem { scaling, scenario, model, settings, grid, momenta } = &*self.problem;
         let steps = grid.steps() - node;
         let start = self.point.after(self.point.steps() - steps);
         let grid = Grid::new(grid.step_s() * steps as f64, steps)?;
         let here = measured.state(scaling);
-        let here = model.coordinates.of_free_floating_state(&here, scenario.horizon().time_s(node));
+        let mut here =
+            model.coordinates.of_free_floating_state(&here, scenario.horizon().time_s(node));
+        // From a rate that is measured on a wrong model, no better momentum would follow than the plan's.
+        let momentum = model.coordinates.momentum();
+        here[momentum].copy_from_slice(momenta.row(node));
         let mut program = model.program_from(grid, &here)?;
         let is_late = || deadline.is_some_and(|deadline| started.elapsed() > deadline);
         let watch = |_: &Iteration| if is_late() { Control::Stop } else { Control::Continue };

@@ -5,7 +5,7 @@ use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
 use righting_scenario::file::{self, SystemReference};
 use righting_test_support::{shipped, varied};
-use righting_verifier::model::{Model, Motion, State};
+use righting_verifier::model::{Model, Motion, Outside, State};
 
 fn plan(scenario: &Scenario) -> Planned {
     Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
@@ -47,7 +47,8 @@ fn peaks(scenario: &Scenario, planned: &Planned) -> Peaks {
         let x = node.state().to_vec();
         let state = State::from_slice(&x);
         let control = &interval.joint_accelerations_rad_s2;
-        let mount = model.joint_torques(&state, control, &mut motion, &mut torques);
+        let mount =
+            model.joint_torques(&state, control, &Outside::default(), &mut motion, &mut torques);
         for (peak, torque) in peaks.torques_n_m.iter_mut().zip(&torques) {
             *peak = peak.max(torque.abs());
         }

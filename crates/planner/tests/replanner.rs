@@ -7,7 +7,7 @@ use righting_results::{Node, Trajectory};
 use righting_scenario::{Maneuver, Scenario};
 use righting_test_support::{shipped, varied};
 use righting_verifier::DormandPrince;
-use righting_verifier::model::{Model, Motion, State};
+use righting_verifier::model::{Model, Motion, Outside, State};
 
 fn plan(scenario: &Scenario) -> Planned {
     Planner::new().plan(scenario, &mut |_| Control::Continue).unwrap()
@@ -42,7 +42,7 @@ fn flown(
     for control in &replan.accelerations_rad_s2 {
         let step_s = scenario.horizon().step_s();
         assert!(integrator.advance(&mut x, step_s, |_, x, rate| {
-            model.state_derivative(x, control, &mut motion, rate);
+            model.state_derivative(x, control, &Outside::default(), &mut motion, rate);
         }));
     }
     x

@@ -1,5 +1,6 @@
 //! What a maneuver reached, and what it cost.
 
+use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State};
 use righting_scenario::scenario::{Maneuver, Scenario};
 
@@ -76,7 +77,7 @@ impl WaypointRecord {
 /// The objective of a trajectory in its scenario's weights: w_u ∫ q̈ᵀq̈ dt / 0.05 s and the
 /// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity
 /// and rates shall be zero; joint angles those in which the joints shall end, and where that is open those of the
-/// start, as the attitude of a detumble.
+/// start, as the attitude of a detumble. Where the base may drift, its rate is the one beyond the drift.
 pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     let weights = scenario.weights();
     let initial = scenario.initial();
@@ -84,9 +85,16 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         Maneuver::Slew(slew) => slew.target,
         Maneuver::Detumble => initial.attitude,
     };
+    let end = trajectory.end().state();
+    let rate = match scenario.may_drift() {
+        false => end.angular_rate,
+        true => {
+            let model = &scenario.system().model;
+            model.reduced_angular_rate(&end.joint_angles, &end.joint_rates, &Vector3::zeros())
+        }
+    };
     let step_s = scenario.horizon().step_s();
     let effort: f64 = trajectory.intervals().iter().map(|i| mean_square(i, step_s)).sum();
-    let end = trajectory.end().state();
     let desired_angles = scenario.desired_joint_angles_rad();
     let angles = end.joint_angles.iter().zip(&desired_angles);
     let joint_error: f64 = angles.map(|(end, desired)| (end - desired).powi(2)).sum();
@@ -95,7 +103,7 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         + weights.position * end.position.norm_squared()
         + weights.attitude * end.attitude.error_vector(&desired).norm_squared()
         + weights.velocity * end.velocity.norm_squared()
-        + weights.angular_rate * end.angular_rate.norm_squared()
+        + weights.angular_rate * rate.norm_squared()
         + weights.joint_angle * joint_error
         + weights.joint_rate * sum_of_squares(&end.joint_rates)
 }

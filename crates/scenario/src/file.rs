@@ -6,6 +6,7 @@
 
 mod bodies;
 mod drive;
+mod environment;
 mod horizon;
 mod joint_row;
 mod link;
@@ -25,6 +26,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 pub use bodies::{Body, Joint, JointType};
 pub use drive::Drive;
+pub use environment::{Environment, GravityGradient, OrbitalElements};
 pub use horizon::{Duration, DurationRange, Horizon};
 pub use joint_row::{JointPlace, JointRow};
 pub use link::{DhConvention, InertialFrame, Link};
@@ -66,6 +68,9 @@ pub struct Scenario {
     /// How the end is met.
     #[serde(rename = "final", default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
+    /// What acts from outside.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<Environment>,
     /// Where instruments may look, all the time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pointing: Vec<Pointing>,

@@ -32,6 +32,7 @@ pub mod bodies;
 pub mod collision;
 pub mod drive;
 mod end;
+pub mod environment;
 pub mod error;
 pub mod file;
 pub mod file_io;
@@ -69,6 +70,7 @@ pub mod wheels;
 
 pub use collision::CollisionModel;
 pub use drive::Drive;
+pub use environment::Environment;
 pub use error::Error;
 pub use file_kind::FileKind;
 pub use initial::Initial;

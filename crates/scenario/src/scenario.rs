@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use righting_multibody::{External, Quaternion};
+use righting_scalar::Scalar;
 use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
 use crate::end::{check_end_clearances, end_angles};
+use crate::environment::Environment;
 use crate::error::Error;
 use crate::file::{self, SystemReference};
 use crate::initial::Initial;
@@ -42,6 +45,7 @@ pub struct Scenario {
     pub(crate) weights: Weights,
     pub(crate) is_end_hard: bool,
     pub(crate) end_angles_rad: Vec<Option<f64>>,
+    pub(crate) environment: Option<Environment>,
     pub(crate) pointing: Vec<Pointing>,
     pub(crate) collision: CollisionModel,
     pub(crate) solver: SolverSettings,
@@ -105,9 +109,17 @@ impl Scenario {
         end_in_last(&mut scenario.maneuver);
         let maneuver =
             Maneuver::from_file(&scenario.maneuver, &initial, &maneuver_place, &mut notes)?;
-        let momentum_note =
-            check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
-        notes.extend(momentum_note);
+        let environment = match &mut scenario.environment {
+            Some(given) => {
+                Some(Environment::from_file(given, &place.key("environment"), &mut notes)?)
+            }
+            None => None,
+        };
+        if environment.is_none() || maneuver == Maneuver::Detumble {
+            let momentum_note =
+                check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
+            notes.extend(momentum_note);
+        }
         let (horizon, free_duration) =
             Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
         let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
@@ -183,6 +195,7 @@ impl Scenario {
             weights,
             is_end_hard,
             end_angles_rad,
+            environment,
             pointing,
             collision,
             solver,
@@ -265,6 +278,23 @@ impl Scenario {
     /// The angles in which joints shall end, one a joint, rad; none where the joint is free.
     pub fn end_angles_rad(&self) -> &[Option<f64>] {
         &self.end_angles_rad
+    }
+
+    /// What acts from outside; none where the file gives nothing, and angular momentum is conserved.
+    pub fn environment(&self) -> Option<&Environment> {
+        self.environment.as_ref()
+    }
+
+    /// Whether the base may drift at the end of a slew as its angular momentum has it: what comes from outside is
+    /// nothing that a plan could take away. The rate that shall be zero is then the one beyond that drift.
+    pub fn may_drift(&self) -> bool {
+        self.environment.is_some() && self.maneuver != Maneuver::Detumble
+    }
+
+    /// What acts on the system in an attitude (body → inertial) at a time since the start, if anything does.
+    pub fn external<T: Scalar>(&self, attitude: &Quaternion<T>, time: T) -> Option<External<T>> {
+        let environment = self.environment.as_ref().filter(|environment| environment.acts());
+        environment.map(|environment| environment.external(attitude, time))
     }
 
     /// The cones that instruments keep out of, or stay in.

@@ -60,6 +60,7 @@ fn least_torque_n_m(system: &SystemDescription, initial: &Initial, joint: usize)
             &initial.joint_angles_rad,
             &initial.joint_rates_rad_s,
             accelerations,
+            None,
         );
         let rate = initial.joint_rates_rad_s[joint];
         system.drives[joint].torque(torques[joint], rate, accelerations[joint])

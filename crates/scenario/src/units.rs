@@ -5,6 +5,7 @@ use righting_multibody::{ModelError, Units};
 use crate::bodies::Solid;
 use crate::collision::{CollisionModel, Other, Pair};
 use crate::drive::Drive;
+use crate::environment::{Environment, Orbit};
 use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::load_limits::LoadLimits;
@@ -29,6 +30,7 @@ impl Scenario {
             free_duration: self.free_duration.map(|free| free.in_units(units)),
             weights: self.weights.in_units(units, objective_unit),
             collision: self.collision.in_units(units),
+            environment: self.environment.as_ref().map(|acts| acts.in_units(units)),
             pointing: self.pointing.iter().map(|cone| cone.in_units(units)).collect(),
             ..self.clone()
         })
@@ -95,6 +97,18 @@ impl Initial {
             angular_momentum_n_m_s: self.angular_momentum_n_m_s
                 * (time_s / (mass_kg * length_m.powi(2))),
             ..self.clone()
+        }
+    }
+}
+
+impl Environment {
+    fn in_units(&self, units: &Units) -> Self {
+        Self {
+            torque_body_n_m: self.torque_body_n_m / units.torque_n_m(),
+            torque_inertial_n_m: self.torque_inertial_n_m / units.torque_n_m(),
+            orbit: self
+                .orbit
+                .map(|orbit| Orbit { rate_rad_s: orbit.rate_rad_s * units.time_s, ..orbit }),
         }
     }
 }

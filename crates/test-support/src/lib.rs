@@ -82,11 +82,11 @@ pub trait Equations {
 /// The planner's model.
 impl Equations for System {
     fn state_derivative(&self, x: &[f64], u: &[f64]) -> Vec<f64> {
-        self.state_derivative(x, u)
+        self.state_derivative(x, u, None)
     }
 
     fn joint_torques(&self, state: &State<f64>, u: &[f64]) -> Vec<f64> {
-        self.joint_torques(&state.angular_rate, &state.joint_angles, &state.joint_rates, u)
+        self.joint_torques(&state.angular_rate, &state.joint_angles, &state.joint_rates, u, None)
     }
 }
 

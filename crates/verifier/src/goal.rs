@@ -71,7 +71,7 @@ impl Goal {
 
 /// The base's rate, body axes, once the joints have stopped where they are in the state `start`: angular
 /// momentum, which stopping them does not change, is linear in the rate of a rigid body.
-fn stopped_rate(model: &Model, start: &State<'_>) -> Vector3<f64> {
+pub(super) fn stopped_rate(model: &Model, start: &State<'_>) -> Vector3<f64> {
     let still = vec![0.0; model.joint_count()];
     let mut motion = Motion::new(model);
     let mut momentum = |state: &State<'_>| {

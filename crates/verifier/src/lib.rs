@@ -73,6 +73,7 @@ mod limits;
 mod lineage;
 mod loads;
 pub mod model;
+mod momentum;
 mod motion_bound;
 mod pointing;
 mod posture;

@@ -12,7 +12,7 @@
 //! P = Σ m v                               linear momentum
 //! H = Σ [ (x − c) × m v + J Ω ]           angular momentum about c
 //! 0 = Σ m a                               no force from outside
-//! 0 = Σ [ (x − c) × m a + J α + Ω × J Ω ] no moment from outside
+//! 0 = Σ [ (x − c) × m a + J α + Ω × J Ω ] no moment from outside, or the one that acts
 //! τ = e · Σ [ (x − p) × m a + J α + Ω × J Ω ]   over the bodies beyond a joint with axis e through p
 //! ```
 //!
@@ -30,7 +30,7 @@
 //! use std::path::Path;
 //!
 //! use righting_scenario::Scenario;
-//! use righting_verifier::model::{BaseAcceleration, Model, Motion, State};
+//! use righting_verifier::model::{BaseAcceleration, Model, Motion, Outside, State};
 //!
 //! // A base that turns at 20 deg/s keeps its momentum when the arm moves.
 //! let scenario = Scenario::read(Path::new("../../scenarios/detumble_4dof.json"))?;
@@ -45,7 +45,7 @@
 //! let before = momentum(&x);
 //! let (mut rate, mut room) = (vec![0.0; x.len()], Motion::new(&model));
 //! for _ in 0..1000 {
-//!     model.state_derivative(&x, &u, &mut room, &mut rate);
+//!     model.state_derivative(&x, &u, &Outside::default(), &mut room, &mut rate);
 //!     x.iter_mut().zip(&rate).for_each(|(x, rate)| *x += 1e-4 * rate);
 //! }
 //! assert!((momentum(&x) - before).norm() < 1e-4 * before.norm());
@@ -56,6 +56,7 @@ mod body;
 mod cuboid;
 mod dynamics;
 mod motion;
+mod outside;
 mod pose;
 mod row;
 mod segment;
@@ -74,6 +75,7 @@ use crate::lineage::Lineage;
 pub use cuboid::Cuboid;
 pub use dynamics::{BaseAcceleration, MountLoad};
 pub use motion::{BodyMotion, FrameMotion, Motion};
+pub use outside::{Outside, Surroundings};
 pub use pose::Pose;
 pub use segment::Segment;
 pub use state::State;

@@ -14,7 +14,7 @@ use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Worst};
 use crate::model::State;
 use crate::requirements::Requirements;
-use crate::simulation::{Follower, Simulation};
+use crate::simulation::{Follower, Simulation, Span};
 
 /// How far base and axis turn in a part of an interval that is followed, rad. The bound is off by half of that at
 /// the most.
@@ -145,14 +145,13 @@ pub(super) fn check(
             let time_s = asked.horizon.time_s(k);
             cone.look(cone.angle_rad(&state.attitude, time_s), time_s, &mut between);
         }
-        let mut follower = Follower::new(&asked.model);
+        let mut follower = Follower::new(&asked.model, &asked.surroundings);
         let states = simulation.nodes().zip(simulation.nodes().skip(1));
         for (k, (interval, ends)) in trajectory.intervals().iter().zip(states).enumerate() {
             let start_s = asked.horizon.time_s(k);
             let duration_s = asked.horizon.time_s(k + 1) - start_s;
-            let accelerations = Accelerations::of(interval);
-            let times_s = [start_s, duration_s];
-            cone.look_within(ends, accelerations, times_s, &mut follower, &mut between);
+            let span = Span { start_s, accelerations: Accelerations::of(interval) };
+            cone.look_within(ends, (span, duration_s), &mut follower, &mut between);
         }
         ledger.add_of(at_nodes, &cone.name);
         ledger.add_of(between, &cone.name);
@@ -164,11 +163,11 @@ impl Cone {
     fn look_within(
         &self,
         (start, end): (State<'_>, State<'_>),
-        accelerations: Accelerations<'_>,
-        [start_s, duration_s]: [f64; 2],
+        (span, duration_s): (Span<'_>, f64),
         follower: &mut Follower<'_>,
         worst: &mut Worst,
     ) {
+        let start_s = span.start_s;
         let rate = start.angular_rate.norm().max(end.angular_rate.norm());
         let turn_rad = (INTERVAL_MARGIN * rate + self.axis_rate_rad_s) * duration_s;
         let ends = [(&start, start_s), (&end, start_s + duration_s)];
@@ -183,7 +182,7 @@ impl Cone {
         let (mut angle, mut rate) = (angles[0], start.angular_rate.norm());
         for part in 0..parts {
             let before_s = part as f64 * part_s;
-            follower.advance(&mut x, accelerations, before_s, part_s);
+            follower.advance(&mut x, span, before_s, part_s);
             let there = State::from_slice(&x);
             let time_s = start_s + (part + 1) as f64 * part_s;
             let next_angle = self.angle_rad(&there.attitude, time_s);

@@ -5,10 +5,10 @@ use righting_scenario::file;
 use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::clearances::Clearances;
-use crate::goal::Goal;
+use crate::goal::{Goal, stopped_rate};
 use crate::lineage::Lineage;
 use crate::loads::LoadLimits;
-use crate::model::{BaseAcceleration, Model, Motion, State};
+use crate::model::{BaseAcceleration, Model, Motion, State, Surroundings};
 use crate::motion_bound::Reach;
 use crate::pointing::Cone;
 use crate::posture::EndPosture;
@@ -19,6 +19,9 @@ use crate::waypoints::{Waypoint, waypoints};
 #[derive(Debug)]
 pub(super) struct Requirements {
     pub model: Model,
+    pub surroundings: Surroundings,
+    /// Whether a slew may end with the drift that angular momentum leaves.
+    pub may_drift: bool,
     pub horizon: Horizon,
     /// State vector at the start: the body frame's origin at the inertial one, the system's at rest.
     pub start: Vec<f64>,
@@ -76,6 +79,8 @@ impl Requirements {
             },
             end_posture: EndPosture::new(file.end.as_ref()),
             horizon: scenario.horizon(),
+            surroundings: Surroundings::new(file.environment.as_ref()),
+            may_drift: file.environment.is_some(),
             joint_limits: system.joints().iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),
             cones: file.pointing.iter().map(Cone::new).collect(),
@@ -83,6 +88,17 @@ impl Requirements {
             clearances,
             model,
             start,
+        }
+    }
+}
+
+impl Requirements {
+    /// The base's rate that no fault of the plan leaves in a state at rest, deg/s: the one that momentum from
+    /// outside leaves once the joints have stopped.
+    pub fn drift_deg_s(&self, state: &State<'_>) -> f64 {
+        match self.may_drift {
+            true => stopped_rate(&self.model, state).norm().to_degrees(),
+            false => 0.0,
         }
     }
 }

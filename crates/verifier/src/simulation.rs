@@ -5,11 +5,19 @@ use righting_scenario::scenario::Horizon;
 
 use crate::dormand_prince::DormandPrince;
 use crate::joints::Accelerations;
-use crate::model::{Model, Motion, State};
+use crate::model::{Model, Motion, State, Surroundings};
+
+/// An interval of a trajectory: when it begins, and what the joints do then.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span<'i> {
+    pub start_s: f64,
+    pub accelerations: Accelerations<'i>,
+}
 
 /// What follows the motion within the intervals of a trajectory.
 pub(super) struct Follower<'a> {
     model: &'a Model,
+    surroundings: &'a Surroundings,
     pub motion: Motion,
     /// The joint accelerations (j, rad/s²) that were looked at last.
     pub control: Vec<f64>,
@@ -17,10 +25,11 @@ pub(super) struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    pub fn new(model: &'a Model) -> Self {
+    pub fn new(model: &'a Model, surroundings: &'a Surroundings) -> Self {
         let joints = model.joint_count();
         Self {
             model,
+            surroundings,
             motion: Motion::new(model),
             control: vec![0.0; joints],
             integrator: DormandPrince::new(State::dimension(joints)),
@@ -29,17 +38,14 @@ impl<'a> Follower<'a> {
 
     /// Carries a state vector from `before_s` after the beginning of an interval on by `duration_s`; one that
     /// cannot be followed is NaN from there on.
-    pub fn advance(
-        &mut self,
-        x: &mut [f64],
-        accelerations: Accelerations<'_>,
-        before_s: f64,
-        duration_s: f64,
-    ) {
-        let Self { model, motion, control, integrator } = self;
+    pub fn advance(&mut self, x: &mut [f64], span: Span<'_>, before_s: f64, duration_s: f64) {
+        let Self { model, surroundings, motion, control, integrator } = self;
         let followed = integrator.advance(x, duration_s, |after_s, x, rate| {
-            accelerations.write(before_s + after_s, control);
-            model.state_derivative(x, control, motion, rate);
+            let after_s = before_s + after_s;
+            span.accelerations.write(after_s, control);
+            let attitude = State::from_slice(x).attitude;
+            let outside = surroundings.at(&attitude, span.start_s + after_s);
+            model.state_derivative(x, control, &outside, motion, rate);
         });
         if !followed {
             x.fill(f64::NAN);
@@ -59,18 +65,19 @@ impl Simulation {
     /// Integrates the full equations of motion from the state vector `start`. After a state that
     /// cannot be followed, all later ones are NaN.
     pub fn new(
-        model: &Model,
+        (model, surroundings): (&Model, &Surroundings),
         horizon: Horizon,
         start: &[f64],
         intervals: &[ControlInterval],
     ) -> Self {
-        let mut follower = Follower::new(model);
+        let mut follower = Follower::new(model, surroundings);
         let mut x = start.to_vec();
         let mut states = Vec::with_capacity(start.len() * (intervals.len() + 1));
         states.extend(&x);
         for (k, interval) in intervals.iter().enumerate() {
-            let duration_s = horizon.time_s(k + 1) - horizon.time_s(k);
-            follower.advance(&mut x, Accelerations::of(interval), 0.0, duration_s);
+            let start_s = horizon.time_s(k);
+            let span = Span { start_s, accelerations: Accelerations::of(interval) };
+            follower.advance(&mut x, span, 0.0, horizon.time_s(k + 1) - start_s);
             states.extend(&x);
         }
         Self { states, dimension: start.len() }

@@ -1,6 +1,6 @@
 //! The checks of a trajectory, one after the other.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 use righting_results::solution::Terminal;
 use righting_results::trajectory::Trajectory;
 use righting_results::verification::Verification;
@@ -11,7 +11,8 @@ use crate::jerk;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::limits;
 use crate::loads;
-use crate::model::{BaseAcceleration, Motion, State};
+use crate::model::{Motion, State};
+use crate::momentum;
 use crate::pointing;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
@@ -30,7 +31,6 @@ pub const DETUMBLE_AT_REST: f64 = 0.005;
 /// so an optimum leaves some.
 pub const TRADED_DETUMBLE_AT_REST: f64 = 0.05;
 
-const MOMENTUM: f64 = 1e-4;
 const TORQUE: f64 = 1e-6;
 /// Torques below this share of what moves the system once in the maneuver's duration are none.
 const NO_TORQUE: f64 = 1e-3;
@@ -46,9 +46,10 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     }
     check_start(&asked, trajectory, &mut ledger);
     let start = State::of_node(trajectory.start()).to_vec();
-    let simulation = Simulation::new(&asked.model, asked.horizon, &start, trajectory.intervals());
+    let bodies = (&asked.model, &asked.surroundings);
+    let simulation = Simulation::new(bodies, asked.horizon, &start, trajectory.intervals());
     check_motion(&asked.tolerances, trajectory, &simulation, &mut ledger);
-    check_momentum(&asked, trajectory, &mut ledger);
+    momentum::check(&asked, trajectory, &mut ledger);
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
     jerk::check(&asked, trajectory, &mut ledger);
@@ -71,7 +72,8 @@ pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verificati
     if !shape_fits(&asked, plan, &mut ledger) {
         return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
     }
-    let simulation = Simulation::new(&asked.model, asked.horizon, &asked.start, plan.intervals());
+    let bodies = (&asked.model, &asked.surroundings);
+    let simulation = Simulation::new(bodies, asked.horizon, &asked.start, plan.intervals());
     waypoints::check(&asked, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     (asked.goal.reached(&simulation.end()), ledger.finish())
@@ -156,39 +158,6 @@ fn check_motion(
     }
 }
 
-/// Momentum about the center of mass stays what it was, and the center of mass where it was.
-fn check_momentum(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
-    let model = &asked.model;
-    let mut motion = Motion::new(model);
-    let coasting = vec![0.0; model.joint_count()];
-    let mut momentum_and_center = |state: &State<'_>| {
-        motion.set(model, state, &BaseAcceleration::default(), &coasting);
-        (motion.angular_momentum(), motion.center_of_mass())
-    };
-    let (first_momentum, first_center) = momentum_and_center(&State::from_slice(&asked.start));
-    let mut drift = Worst::new("angular momentum drift", "", 0.0);
-    let mut wander = Worst::new("center of mass drift", "m", 0.0);
-    let mut scale = first_momentum.norm();
-    let mut changes = Vec::with_capacity(trajectory.nodes().len());
-    for node in trajectory.nodes() {
-        let state = State::of_node(node);
-        let (momentum, center) = momentum_and_center(&state);
-        changes.push((momentum - first_momentum).norm());
-        let distance_m = (center - first_center).norm();
-        wander.at_most(distance_m, asked.tolerances.position_m, None, Some(node.time_s));
-        // The arm's momentum alone, as if the base stood still.
-        let held = State { angular_rate: Vector3::zeros(), velocity: Vector3::zeros(), ..state };
-        scale = scale.max(momentum_and_center(&held).0.norm());
-    }
-    let scale = if scale > 0.0 { scale } else { 1.0 };
-    for (node, change) in trajectory.nodes().iter().zip(changes) {
-        drift.at_most(change / scale, MOMENTUM, None, Some(node.time_s));
-    }
-    ledger.report.momentum_drift = drift.value();
-    ledger.add(drift);
-    ledger.add(wander);
-}
-
 /// Torques and power are those of the nodes' motion.
 fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
     let model = &asked.model;
@@ -199,7 +168,9 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
         trajectory.nodes().iter().zip(torques.chunks_exact_mut(joints)).enumerate()
     {
         let control = trajectory.joint_accelerations_at(k);
-        model.joint_torques(&State::of_node(node), &control, &mut motion, torques);
+        let state = State::of_node(node);
+        let outside = asked.surroundings.at(&state.attitude, node.time_s);
+        model.joint_torques(&state, &control, &outside, &mut motion, torques);
     }
     let largest = |values: &mut dyn Iterator<Item = &f64>| {
         values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
@@ -244,7 +215,7 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
         Goal::Attitude(_) => {
             single("attitude error at the end", "", reached.attitude_error, ATTITUDE_ERROR);
             let rest_deg_s = at_rest_deg_s(SLEW_AT_REST_DEG_S, asked.horizon.duration_s);
-            (rest_deg_s, rest_deg_s)
+            (rest_deg_s + asked.drift_deg_s(end), rest_deg_s)
         }
         Goal::LessRate { stopped_deg_s } => {
             let share = match asked.is_end_hard {

@@ -58,7 +58,8 @@ pub(super) fn check(asked: &Requirements, simulation: &Simulation, ledger: &mut 
             let reached = waypoint.goal.reached(&state);
             attitude.at_most(reached.attitude_error, ATTITUDE_ERROR, None, time_s);
             if waypoint.is_at_rest {
-                base.at_most(reached.angular_rate_deg_s, rest_deg_s, None, time_s);
+                let most_deg_s = rest_deg_s + asked.drift_deg_s(&state);
+                base.at_most(reached.angular_rate_deg_s, most_deg_s, None, time_s);
                 joints.at_most(reached.joint_rate_deg_s, rest_deg_s, None, time_s);
             }
         }

@@ -12,7 +12,9 @@ use righting_test_support::arms::{self, arm};
 use righting_test_support::bodies::bodies;
 use righting_test_support::trees::tree;
 use righting_test_support::{motion, scenarios};
-use righting_verifier::model::{BaseAcceleration, Cuboid, Model, Motion, Pose, Segment, State};
+use righting_verifier::model::{
+    BaseAcceleration, Cuboid, Model, Motion, Outside, Pose, Segment, State,
+};
 use righting_verifier::verify;
 use serde::Deserialize;
 
@@ -101,13 +103,13 @@ proptest! {
         near("H", h, theirs.inertial_angular_momentum(&their_state), 1.0);
 
         let mut rate = vec![0.0; x.len()];
-        ours.state_derivative(&x, u, &mut room, &mut rate);
-        assert_near("the state's derivative", &rate, &theirs.state_derivative(&x, u), 1e-12, 1.0);
+        ours.state_derivative(&x, u, &Outside::default(), &mut room, &mut rate);
+        assert_near("the state's derivative", &rate, &theirs.state_derivative(&x, u, None), 1e-12, 1.0);
 
         let mut torques = vec![0.0; q.len()];
-        let mount = ours.joint_torques(&state, u, &mut room, &mut torques);
-        let base = theirs.base_acceleration(&omega, q, qdot, u);
-        let theirs = theirs.inverse_dynamics(&base, &omega, q, qdot, u);
+        let mount = ours.joint_torques(&state, u, &Outside::default(), &mut room, &mut torques);
+        let base = theirs.base_acceleration(&omega, q, qdot, u, None);
+        let theirs = theirs.inverse_dynamics(&base, &omega, q, qdot, u, None);
         assert_near("torques", &torques, &theirs.joint_torques, 1e-12, 10.0);
         let rotation = room.base().rotation;
         near("force at the mount", mount.force, rotation * theirs.mount.force, 10.0);
@@ -275,10 +277,10 @@ fn agrees_with_pinocchio() {
         for sample in samples {
             let state = State::from_slice(&sample.x);
             let mut rate = vec![0.0; sample.x.len()];
-            model.state_derivative(&sample.x, &sample.u, &mut room, &mut rate);
+            model.state_derivative(&sample.x, &sample.u, &Outside::default(), &mut room, &mut rate);
             assert_near("x'", &rate, &sample.xdot, 1e-11, 0.0);
             let mut torques = vec![0.0; sample.u.len()];
-            model.joint_torques(&state, &sample.u, &mut room, &mut torques);
+            model.joint_torques(&state, &sample.u, &Outside::default(), &mut room, &mut torques);
             assert_near("torque", &torques, &sample.joint_torque, 1e-10, 0.0);
             let pairs = [
                 ("H", room.angular_momentum(), sample.angular_momentum_inertial),

@@ -6,7 +6,7 @@ mod counting;
 use std::path::Path;
 
 use righting_scenario::Scenario;
-use righting_verifier::model::{Model, Motion, Pose, State};
+use righting_verifier::model::{Model, Motion, Outside, Pose, State};
 
 use counting::allocations;
 
@@ -22,8 +22,8 @@ fn motion_and_torques_allocate_nothing() {
     let (mut rate, mut torques) = (vec![0.0; x.len()], vec![0.0; 7]);
     let mut frames = vec![Pose::identity(); 8];
     let before = allocations();
-    model.state_derivative(&x, &u, &mut motion, &mut rate);
-    model.joint_torques(&State::from_slice(&x), &u, &mut motion, &mut torques);
+    model.state_derivative(&x, &u, &Outside::default(), &mut motion, &mut rate);
+    model.joint_torques(&State::from_slice(&x), &u, &Outside::default(), &mut motion, &mut torques);
     model.frames(&x[13..20], &mut frames);
     assert!(motion.angular_momentum().norm() > 0.0);
     assert_eq!(allocations(), before);

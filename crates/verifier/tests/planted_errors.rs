@@ -163,7 +163,7 @@ impl<F: Fn(&System, &State<f64>, &[f64]) -> BaseAcceleration<f64>> Equations for
         let base = (self.accelerations)(&self.model, state, u);
         let State { angular_rate, joint_angles, joint_rates, .. } = state;
         let inverse =
-            self.model.inverse_dynamics(&base, angular_rate, joint_angles, joint_rates, u);
+            self.model.inverse_dynamics(&base, angular_rate, joint_angles, joint_rates, u, None);
         inverse.joint_torques
     }
 }
@@ -176,7 +176,7 @@ fn a_dropped_gyroscopic_term_is_caught() {
         model: scenario.system().model.clone(),
         accelerations: |model: &System, state: &State<f64>, u: &[f64]| {
             let State { angular_rate: omega, joint_angles: q, joint_rates: qdot, .. } = state;
-            let base = model.base_acceleration(omega, q, qdot, u);
+            let base = model.base_acceleration(omega, q, qdot, u, None);
             let gyroscopic = omega.cross(&model.angular_momentum(omega, q, qdot));
             let inertia: Matrix3<f64> = model.locked_inertia(q);
             let left_out = inertia.try_inverse().unwrap() * gyroscopic;
@@ -202,7 +202,7 @@ fn dropped_coriolis_terms_are_caught() {
             model: scenario.system().model.clone(),
             accelerations: |model: &System, state: &State<f64>, u: &[f64]| {
                 let State { angular_rate: omega, joint_angles: q, .. } = state;
-                model.base_acceleration(omega, q, &vec![0.0; q.len()], u)
+                model.base_acceleration(omega, q, &vec![0.0; q.len()], u, None)
             },
         };
         assert_caught(
@@ -223,13 +223,13 @@ fn torques_without_coriolis_terms_are_caught_alone() {
     struct AtRest(System);
     impl Equations for AtRest {
         fn state_derivative(&self, x: &[f64], u: &[f64]) -> Vec<f64> {
-            self.0.state_derivative(x, u)
+            self.0.state_derivative(x, u, None)
         }
 
         fn joint_torques(&self, state: &State<f64>, u: &[f64]) -> Vec<f64> {
             let still = vec![0.0; u.len()];
             let State { angular_rate, joint_angles, .. } = state;
-            self.0.joint_torques(angular_rate, joint_angles, &still, u)
+            self.0.joint_torques(angular_rate, joint_angles, &still, u, None)
         }
     }
     for scenario in [tumbling(), resting()] {

@@ -2,13 +2,13 @@
 //!
 //! Joint accelerations are constant or linear over a step; torques are not, nor are they told well enough by
 //! interpolation between nodes: an open-loop flight may amplify an error of its torques by 1e10. The
-//! motion is therefore integrated once more, from the first node and the accelerations alone and with the
-//! momentum that the first node has, and torques are taken from it at Chebyshev's points of every step.
+//! motion is therefore integrated once more, from the first node and the accelerations alone, and torques are taken from it at Chebyshev's points of every step.
 //! At nodes they differ from the plan's by the plan's own integration error.
 
 use nalgebra::{SMatrix, SVector};
-use righting_multibody::{Quaternion, System};
+use righting_multibody::{Quaternion, State};
 use righting_results::Trajectory;
+use righting_scenario::Scenario;
 use righting_verifier::DormandPrince;
 
 use crate::ExportError;
@@ -26,22 +26,14 @@ pub(super) struct StepTorques {
 }
 
 impl StepTorques {
-    /// Of a motion of the system.
+    /// Of a motion of the scenario's system.
     ///
     /// # Errors
     /// [`ExportError::Motion`] for a motion that cannot be followed.
-    pub fn new(model: &System, trajectory: &Trajectory) -> Result<Self, ExportError> {
+    pub fn new(scenario: &Scenario, trajectory: &Trajectory) -> Result<Self, ExportError> {
+        let model = &scenario.system().model;
         let joints = model.joint_count();
-        let start = trajectory.start().state();
-        let momentum = model.inertial_angular_momentum(&start);
-        let motion = |x: &[f64]| {
-            let attitude = Quaternion::new(x[0], x[1], x[2], x[3]).normalized();
-            let (angles, rates) = x[4..].split_at(joints);
-            let of_body = attitude.to_body(&momentum);
-            (model.reduced_angular_rate(angles, rates, &of_body), attitude)
-        };
-        let mut x: Vec<f64> = start.attitude.normalized().to_array().to_vec();
-        x.extend(start.joint_angles.iter().chain(&start.joint_rates));
+        let mut x = trajectory.start().state().to_vec();
         let mut integrator = DormandPrince::new(x.len());
         let places = Points::from_fn(|i, _| {
             -(std::f64::consts::PI * i as f64 / (COEFFICIENTS - 1) as f64).cos()
@@ -59,20 +51,28 @@ impl StepTorques {
                 if let Some(before) = i.checked_sub(1) {
                     let duration_s = (place - places[before]) * half_s;
                     let before_s = (places[before] + 1.0) * half_s;
+                    let start_s = nodes[0].time_s + before_s;
                     let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
-                        let (omega, attitude) = motion(x);
-                        rate[..4].copy_from_slice(&attitude.rate(&omega).to_array());
-                        rate[4..4 + joints].copy_from_slice(&x[4 + joints..]);
-                        rate[4 + joints..].copy_from_slice(&control(before_s + after_s));
+                        let attitude = Quaternion::from_array([x[3], x[4], x[5], x[6]]);
+                        let external = scenario.external(&attitude, start_s + after_s);
+                        let control = control(before_s + after_s);
+                        let derivative = model.state_derivative(x, &control, external.as_ref());
+                        rate.copy_from_slice(&derivative);
                     });
                     if !followed {
                         return Err(ExportError::Motion { time_s: nodes[0].time_s });
                     }
                 }
-                let omega = motion(&x).0;
-                let (angles, rates) = x[4..].split_at(joints);
-                let control = control((place + 1.0) * half_s);
-                let torques = model.joint_torques(&omega, angles, rates, &control);
+                let after_s = (place + 1.0) * half_s;
+                let state =
+                    State::from_slice(&x).ok_or(ExportError::Motion { time_s: nodes[0].time_s })?;
+                let torques = model.joint_torques(
+                    &state.angular_rate,
+                    &state.joint_angles,
+                    &state.joint_rates,
+                    &control(after_s),
+                    scenario.external(&state.attitude, nodes[0].time_s + after_s).as_ref(),
+                );
                 of_joints
                     .iter_mut()
                     .zip(torques)
@@ -109,7 +109,7 @@ mod tests {
             let twice: Vec<Vec<f64>> =
                 controls.iter().flat_map(|control| [control.clone(), control.clone()]).collect();
             let [trajectory, finer] = [motion(&coarse, &controls), motion(&fine, &twice)];
-            let torques = StepTorques::new(&coarse.system().model, &trajectory).unwrap();
+            let torques = StepTorques::new(&coarse, &trajectory).unwrap();
             let largest = finer.intervals().iter().flat_map(|i| &i.joint_torques_n_m);
             let largest = largest.fold(0.0_f64, |largest, torque| largest.max(torque.abs()));
             for (k, of_joints) in torques.coefficients.iter().enumerate() {

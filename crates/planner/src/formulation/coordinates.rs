@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use righting_multibody::{Quaternion, State, System};
+use righting_multibody::{External, Quaternion, State, System};
 use righting_scalar::Scalar;
+use righting_scenario::environment::Environment;
 use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;
@@ -19,15 +20,20 @@ use super::loads::Moment;
 ///
 /// The control is q̈. Where a joint's jerk is limited, q̈ are j more states and the control is the jerk.
 ///
+/// Where something acts from outside, the reduced form's momentum h, in inertial axes, is three more states:
+/// ḣ is the moment from outside.
+///
 /// Where the duration is free, one more state follows: ζ, the duration as a share of the longest. It does not
 /// change along the way, and all rates are multiplied by it: the grid is that of the longest duration. Where the
-/// axis of a cone moves, the last state is the time t since the start: ṫ = 1.
+/// axis of a cone or the nadir moves, the last state is the time t since the start: ṫ = 1.
 #[derive(Clone)]
 pub(crate) struct Coordinates {
     formulation: Formulation,
     system: Arc<System>,
     /// h₀, inertial axes, N m s.
     momentum: Vector3<f64>,
+    /// What acts from outside, if anything does.
+    environment: Option<Arc<Environment>>,
     /// Where the system's centre of mass rests, inertial axes, m.
     center: Vector3<f64>,
     /// Whether a joint is locked: its control does nothing, and its state stays what it is.
@@ -56,11 +62,13 @@ impl Coordinates {
             formulation,
             momentum: attitude.to_inertial(&h_body),
             center,
+            environment: scenario.environment().filter(|it| it.acts()).cloned().map(Arc::new),
             system,
             locked,
             has_jerk: scenario.system().limits_jerk(),
             is_duration_free: scenario.free_duration().is_some(),
-            has_time: Cones::has_moving(scenario),
+            has_time: Cones::has_moving(scenario)
+                || scenario.environment().is_some_and(|environment| environment.orbit.is_some()),
         }
     }
 
@@ -75,11 +83,18 @@ impl Coordinates {
 
     /// Number of states.
     pub(crate) fn dimension(&self) -> usize {
-        self.joints_end() + usize::from(self.is_duration_free) + usize::from(self.has_time)
+        self.momentum().end + usize::from(self.is_duration_free) + usize::from(self.has_time)
     }
 
     fn joints_end(&self) -> usize {
         self.motion_end() + if self.has_jerk { self.joints() } else { 0 }
+    }
+
+    /// The angular momentum among the states: empty where it never changes, or follows from the others.
+    pub(crate) fn momentum(&self) -> std::ops::Range<usize> {
+        let is_state = self.environment.is_some() && self.formulation == Formulation::Reduced;
+        let first = self.joints_end();
+        first..first + if is_state { 3 } else { 0 }
     }
 
     /// Where the states of the free-floating system end.
@@ -111,7 +126,7 @@ impl Coordinates {
 
     /// Index of ζ among the states, where the duration is free.
     pub(crate) fn duration(&self) -> Option<usize> {
-        self.is_duration_free.then(|| self.joints_end())
+        self.is_duration_free.then(|| self.momentum().end)
     }
 
     /// ζ, which is one where the duration is given.
@@ -223,6 +238,10 @@ impl Coordinates {
             }
         };
         x.resize(self.joints_end(), 0.0);
+        if !self.momentum().is_empty() {
+            let momentum = self.system.inertial_angular_momentum(state);
+            x.extend(momentum.iter());
+        }
         x.extend(self.is_duration_free.then_some(1.0));
         x.extend(self.has_time.then_some(time));
         x
@@ -241,18 +260,24 @@ impl Coordinates {
     /// ẋ for the controls `u`.
     fn rates_in_time<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         let accelerations = self.accelerations(x, u);
+        let attitude = self.attitude_of(x);
+        let external = self.external(&attitude, self.time_of(x));
         let mut rates = match self.formulation {
             Formulation::Full => {
-                self.system.state_derivative(&x[..self.motion_end()], &accelerations)
+                let motion = &x[..self.motion_end()];
+                self.system.state_derivative(motion, &accelerations, external.as_ref())
             }
             Formulation::Reduced => {
-                let attitude = self.attitude_of(x);
                 let turning = attitude.rate(&self.reduced_angular_rate(&attitude, x)).to_array();
                 [&turning[..], self.joint_rates(x), &accelerations].concat()
             }
         };
         if self.has_jerk {
             rates.extend(self.jerks(u));
+        }
+        if let (false, Some(external)) = (self.momentum().is_empty(), external) {
+            let moment = self.system.external_moment(&external, self.joint_angles(x));
+            rates.extend(attitude.to_inertial(&moment).iter());
         }
         if self.is_duration_free {
             rates.push(T::from(0.0));
@@ -329,7 +354,8 @@ impl Coordinates {
     pub(crate) fn within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Moment<T> {
         let joint_angles = self.joint_angles_within(x, u, s);
         let joint_rates = self.joint_rates_within(x, u, s);
-        let h_body = match self.momentum == Vector3::zeros() {
+        let mut external = None;
+        let h_body = match self.environment.is_none() && self.momentum == Vector3::zeros() {
             true => Vector3::from_element(T::from(0.0)),
             false => {
                 let attitude = self.attitude_of(x);
@@ -341,13 +367,21 @@ impl Coordinates {
                 let there =
                     Quaternion::from_array(std::array::from_fn(|i| here[i] + s * turning[i]));
                 let length = there.norm_squared().recip();
-                there.to_body(&self.momentum.map(T::from)).map(|entry| entry * length)
+                let mut momentum = self.momentum_of(x, &rate);
+                if let Some(here) = self.external(&attitude, self.time_of(x)) {
+                    let moment = self.system.external_moment(&here, self.joint_angles(x));
+                    momentum += attitude.to_inertial(&moment).map(|entry| entry * s);
+                    let unit = length.sqrt();
+                    let there = there.to_array().map(|entry| entry * unit);
+                    external = self.external(&Quaternion::from_array(there), self.time_of(x) + s);
+                }
+                there.to_body(&momentum).map(|entry| entry * length)
             }
         };
         let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
         let begins = self.accelerations(x, u).into_iter().zip(self.jerks(u));
         let joint_accelerations = begins.map(|(begins, jerk)| begins + s * jerk).collect();
-        Moment { angular_rate, joint_angles, joint_rates, joint_accelerations }
+        Moment { angular_rate, joint_angles, joint_rates, joint_accelerations, external }
     }
 
     /// The joint accelerations where a step from state `x` with the controls `u` begins: a locked joint has
@@ -374,8 +408,34 @@ impl Coordinates {
     }
 
     fn reduced_angular_rate<T: Scalar>(&self, attitude: &Quaternion<T>, x: &[T]) -> Vector3<T> {
-        let h_body = attitude.to_body(&self.momentum.map(T::from));
+        let momentum = match self.momentum() {
+            states if states.is_empty() => self.momentum.map(T::from),
+            states => Vector3::from_column_slice(&x[states]),
+        };
+        let h_body = attitude.to_body(&momentum);
         self.system.reduced_angular_rate(self.joint_angles(x), self.joint_rates(x), &h_body)
+    }
+
+    /// The angular momentum of a state whose base turns at `rate`, inertial axes.
+    fn momentum_of<T: Scalar>(&self, x: &[T], rate: &Vector3<T>) -> Vector3<T> {
+        match self.momentum() {
+            states if !states.is_empty() => Vector3::from_column_slice(&x[states]),
+            _ if self.environment.is_none() => self.momentum.map(T::from),
+            _ => {
+                let (angles, rates) = (self.joint_angles(x), self.joint_rates(x));
+                let momentum = self.system.angular_momentum(rate, angles, rates);
+                self.attitude_of(x).to_inertial(&momentum)
+            }
+        }
+    }
+
+    /// What acts from outside in an attitude at a time.
+    pub(crate) fn external<T: Scalar>(
+        &self,
+        attitude: &Quaternion<T>,
+        time: T,
+    ) -> Option<External<T>> {
+        self.environment.as_ref().map(|environment| environment.external(attitude, time))
     }
 
     fn base_velocity<T: Scalar>(

@@ -17,7 +17,7 @@
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use righting_multibody::System;
+use righting_multibody::{External, System};
 use righting_ocp::ComponentBounds;
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
@@ -111,24 +111,19 @@ impl Loads {
 
     /// The loads at a moment, as shares of their limits.
     fn shares<T: Scalar>(&self, moment: &Moment<T>, with_rate: bool) -> Vec<T> {
-        let Moment { angular_rate, joint_angles, joint_rates, joint_accelerations } = moment;
+        let Moment { angular_rate, joint_angles, joint_rates, joint_accelerations, external } =
+            moment;
         let square = |vector: &Vector3<T>, most: f64| {
             most.is_finite().then(|| sum_of_squares(vector.as_slice()) * most.powi(-2))
         };
         let mut shares = Vec::new();
         if self.has_forces() {
-            let base = self.system.base_acceleration(
+            let dynamics = self.system.free_floating_dynamics(
                 angular_rate,
                 joint_angles,
                 joint_rates,
                 joint_accelerations,
-            );
-            let dynamics = self.system.inverse_dynamics(
-                &base,
-                angular_rate,
-                joint_angles,
-                joint_rates,
-                joint_accelerations,
+                external.as_ref(),
             );
             shares.extend(self.torques.iter().map(|&(joint, most)| {
                 let (rate, acceleration) = (joint_rates[joint], joint_accelerations[joint]);
@@ -172,4 +167,6 @@ pub(crate) struct Moment<T> {
     pub(crate) joint_angles: Vec<T>,
     pub(crate) joint_rates: Vec<T>,
     pub(crate) joint_accelerations: Vec<T>,
+    /// What acts from outside, if anything does.
+    pub(crate) external: Option<External<T>>,
 }

@@ -8,7 +8,7 @@
 //!
 //! (the paper's equations 6–14), the errors at waypoints, w_T T where the duration T is free, q_N as far as the scenario gives the
 //! posture at the end, and q̈_0 = q̈_N = 0 where jerks are limited. The desired position, velocity, rates and joint angles are those of the system at rest
-//! where it starts, or ends. Distances of capsules are squared: the feasible set is the same, and the square is
+//! where it starts, or ends; the angular rate is the one beyond the drift where something acts from outside. Distances of capsules are squared: the feasible set is the same, and the square is
 //! smooth where two links meet. Those of boxes are signed, so that they say how to get out.
 
 mod clearances;
@@ -21,7 +21,8 @@ mod stage_limits;
 mod tests;
 mod waypoints;
 
-use righting_multibody::{Quaternion, State};
+use nalgebra::Vector3;
+use righting_multibody::{Quaternion, State, System};
 use righting_ocp::{ComponentBounds, ControlProblem, Expr};
 use righting_scalar::Scalar;
 
@@ -162,6 +163,8 @@ fn effort(coordinates: &Coordinates, x: &[Expr], u: &[Expr], h: Expr) -> Expr {
 struct Goal {
     attitude: Quaternion<f64>,
     joint_angles_rad: Vec<f64>,
+    /// The system where its base may drift: then it is the rate beyond that drift that shall be zero.
+    drifting: Option<System>,
 }
 
 impl Goal {
@@ -171,7 +174,11 @@ impl Goal {
             Maneuver::Slew(slew) => slew.target,
             Maneuver::Detumble => initial.attitude,
         };
-        Self { attitude, joint_angles_rad: scenario.desired_joint_angles_rad() }
+        Self {
+            attitude,
+            joint_angles_rad: scenario.desired_joint_angles_rad(),
+            drifting: scenario.may_drift().then(|| scenario.system().model.clone()),
+        }
     }
 
     fn cost<T: Scalar>(&self, state: &State<T>, weights: &Weights) -> T {
@@ -183,11 +190,18 @@ impl Goal {
             .zip(&self.joint_angles_rad)
             .map(|(&q, &goal)| q - goal)
             .collect();
+        let rate = match &self.drifting {
+            None => state.angular_rate,
+            Some(system) => {
+                let still = Vector3::from_element(T::from(0.0));
+                system.reduced_angular_rate(&state.joint_angles, &state.joint_rates, &still)
+            }
+        };
         let terms = [
             (weights.position, sum_of_squares(state.position.as_slice())),
             (weights.attitude, sum_of_squares(attitude_error.as_slice())),
             (weights.velocity, sum_of_squares(state.velocity.as_slice())),
-            (weights.angular_rate, sum_of_squares(state.angular_rate.as_slice())),
+            (weights.angular_rate, sum_of_squares(rate.as_slice())),
             (weights.joint_angle, sum_of_squares(&joint_errors)),
             (weights.joint_rate, sum_of_squares(&state.joint_rates)),
         ];

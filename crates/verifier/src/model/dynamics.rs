@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Quaternion, Vector3};
 
 use super::body::Carrier;
-use super::{Model, Motion, State};
+use super::{Model, Motion, Outside, State};
 
 /// Acceleration of the base, in inertial axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ pub struct MountLoad {
 
 impl Model {
     /// The acceleration of the free-floating base in the state `state` while its joints accelerate
-    /// by `u` (j, rad/s²); NaN if the system has no motion. Leaves in `motion` the motion of an
+    /// by `u` (j, rad/s²) and nothing acts from outside but `outside`; NaN if the system has no motion. Leaves in `motion` the motion of an
     /// unaccelerated base.
     ///
     /// # Panics
@@ -35,12 +35,14 @@ impl Model {
         &self,
         state: &State<'_>,
         u: &[f64],
+        outside: &Outside,
         motion: &mut Motion,
     ) -> BaseAcceleration {
         motion.set(self, state, &BaseAcceleration::default(), u);
+        motion.take_off(outside);
         let center = motion.center_of_mass();
         let mut force = Vector3::zeros();
-        let mut moment = Vector3::zeros();
+        let mut moment = -outside.torque;
         let mut inertia = Matrix3::zeros();
         for body in motion.bodies() {
             let arm = body.center - center;
@@ -57,14 +59,21 @@ impl Model {
         BaseAcceleration { angular, linear }
     }
 
-    /// Writes ẋ of the state vector `x` ∈ R^{13+2j} under joint accelerations `u` (j, rad/s²) into
-    /// `rate`.
+    /// Writes ẋ of the state vector `x` ∈ R^{13+2j} under joint accelerations `u` (j, rad/s²) and what acts from
+    /// outside into `rate`.
     ///
     /// # Panics
     /// A slice has another length, or `motion` is another model's.
-    pub fn state_derivative(&self, x: &[f64], u: &[f64], motion: &mut Motion, rate: &mut [f64]) {
+    pub fn state_derivative(
+        &self,
+        x: &[f64],
+        u: &[f64],
+        outside: &Outside,
+        motion: &mut Motion,
+        rate: &mut [f64],
+    ) {
         let state = State::from_slice(x);
-        let base = self.base_acceleration(&state, u, motion);
+        let base = self.base_acceleration(&state, u, outside, motion);
         State {
             position: state.velocity,
             attitude: state.attitude * Quaternion::from_imag(state.angular_rate) * 0.5,
@@ -78,8 +87,8 @@ impl Model {
     }
 
     /// Writes the torques (N m) of the joints' motors into `torques` (j): of the free-floating system
-    /// in the state `state` while its joints accelerate by `u` (j, rad/s²). Returns what the base does to
-    /// the arm at the mount.
+    /// in the state `state` while its joints accelerate by `u` (j, rad/s²) and nothing acts from outside but
+    /// `outside`. Returns what the base does to the arm at the mount.
     ///
     /// # Panics
     /// A slice does not have one value a joint, or `motion` is another model's.
@@ -87,12 +96,14 @@ impl Model {
         &self,
         state: &State<'_>,
         u: &[f64],
+        outside: &Outside,
         motion: &mut Motion,
         torques: &mut [f64],
     ) -> MountLoad {
         assert_eq!(torques.len(), self.joint_count());
-        let base = self.base_acceleration(state, u, motion);
+        let base = self.base_acceleration(state, u, outside, motion);
         motion.set(self, state, &base, u);
+        motion.take_off(outside);
         // Force and moment about the origin of the body frame on all that each frame carries.
         let mut carried = std::mem::take(&mut motion.carried);
         carried.fill([Vector3::zeros(); 2]);

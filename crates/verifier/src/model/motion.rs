@@ -183,6 +183,10 @@ impl Motion {
         &self.bodies
     }
 
+    pub(super) fn bodies_mut(&mut self) -> &mut [BodyMotion] {
+        &mut self.bodies
+    }
+
     /// c, the system's center of mass, inertial, m.
     pub fn center_of_mass(&self) -> Vector3<f64> {
         self.bodies.iter().map(|body| body.center * body.mass).sum::<Vector3<f64>>()
