@@ -28,7 +28,7 @@ fn torques<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let j = system.joint_count();
     let omega = Vector3::new(y[0], y[1], y[2]);
     let (q, rest) = y[3..].split_at(j);
-    system.joint_torques(&omega, q, &rest[..j], &rest[j..])
+    system.joint_torques(&omega, q, &rest[..j], &rest[j..], None)
 }
 
 /// Both derivatives of a function at y: first along each axis, second along one axis and a direction.

@@ -148,7 +148,7 @@ proptest! {
             ..state.clone()
         };
         let derivative = |state: &State<f64>| {
-            State::from_slice(&system.state_derivative(&state.to_vec(), &u)).unwrap()
+            State::from_slice(&system.state_derivative(&state.to_vec(), &u, None)).unwrap()
         };
         let (before, after) = (derivative(&state), derivative(&turned));
         let expected = State {

@@ -40,7 +40,7 @@ fn check(name: &str, system: &System, sample: &Sample) {
         &State::from_slice(&sample.x).unwrap();
     let state = &State::from_slice(&sample.x).unwrap();
 
-    let xdot = system.state_derivative(&sample.x, &sample.u);
+    let xdot = system.state_derivative(&sample.x, &sample.u, None);
     let theirs = State::from_slice(&sample.xdot).unwrap();
     let ours = State::from_slice(&xdot).unwrap();
     let label = |what: &str| format!("{name}: {what}");
@@ -59,7 +59,7 @@ fn check(name: &str, system: &System, sample: &Sample) {
     assert_close(&label("P"), linear.as_slice(), &sample.linear_momentum_inertial);
     let center = system.inertial_center_of_mass(state);
     assert_close(&label("centre of mass"), center.as_slice(), &sample.center_of_mass_inertial);
-    let torques = system.joint_torques(angular_rate, q, qdot, &sample.u);
+    let torques = system.joint_torques(angular_rate, q, qdot, &sample.u, None);
     assert_close(&label("torque"), &torques, &sample.joint_torque);
 
     let h_body = attitude.to_body(&Vector3::from(sample.angular_momentum_inertial));

@@ -56,7 +56,7 @@ fn base_acceleration<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
 fn torques<T: Scalar>(system: &System, y: &[T]) -> Vec<T> {
     let j = system.joint_count();
     let (q, rest) = y[3..].split_at(j);
-    system.joint_torques(&Vector3::new(y[0], y[1], y[2]), q, &rest[..j], &rest[j..])
+    system.joint_torques(&Vector3::new(y[0], y[1], y[2]), q, &rest[..j], &rest[j..], None)
 }
 
 /// y = q: every squared distance that a planner may ask for.
