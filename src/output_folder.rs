@@ -45,6 +45,8 @@ pub const REPORT_FILE: &str = "report.html";
 pub const CLEARANCES_FILE: &str = "clearances.svg";
 /// The figure of loads beside their limits.
 pub const LOADS_FILE: &str = "loads.svg";
+/// The figure of what reaction wheels store and give.
+pub const WHEELS_FILE: &str = "wheels.svg";
 /// The figure of where instruments look.
 pub const POINTING_FILE: &str = "pointing.svg";
 /// The figure of the momentum's conservation.
@@ -85,7 +87,7 @@ pub const MUJOCO_FILE: &str = "fly_mujoco.py";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 25] = [
+const ALL: [&str; 26] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -93,6 +95,7 @@ const ALL: [&str; 25] = [
     REPORT_FILE,
     CLEARANCES_FILE,
     LOADS_FILE,
+    WHEELS_FILE,
     POINTING_FILE,
     MOMENTUM_FILE,
     CONVERGENCE_FILE,

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use righting_results::{ControlInterval, Node, Trajectory};
 
-/// One array a column, made once and read-only: N + 1 nodes, N intervals, j joints.
+/// One array a column, made once and read-only: N + 1 nodes, N intervals, j joints, w wheels.
 pub struct Columns {
     pub time_s: Py<PyArray1<f64>>,
     pub position_m: Py<PyArray2<f64>>,
@@ -21,6 +21,8 @@ pub struct Columns {
     pub joint_jerks_rad_s3: Option<Py<PyArray2<f64>>>,
     pub joint_torques_n_m: Py<PyArray2<f64>>,
     pub power_w: Py<PyArray1<f64>>,
+    pub wheel_momenta_n_m_s: Py<PyArray2<f64>>,
+    pub wheel_torques_n_m: Py<PyArray2<f64>>,
 }
 
 impl Columns {
@@ -33,6 +35,8 @@ impl Columns {
         let of_intervals = |row: fn(&ControlInterval) -> &[f64]| {
             matrix(py, joints, intervals.iter().flat_map(row).copied().collect())
         };
+        let wheels = trajectory.wheels();
+        let wheel_torques = intervals.iter().flat_map(|interval| &interval.wheel_torques_n_m);
         Ok(Self {
             time_s: vector(py, nodes.iter().map(|node| node.time_s).collect()),
             position_m: of_nodes(3, |node| &node.position_m)?,
@@ -50,6 +54,8 @@ impl Columns {
                 .transpose()?,
             joint_torques_n_m: of_intervals(|interval| &interval.joint_torques_n_m)?,
             power_w: vector(py, nodes.iter().map(|node| node.power_w).collect()),
+            wheel_momenta_n_m_s: of_nodes(wheels, |node| &node.wheel_momenta_n_m_s)?,
+            wheel_torques_n_m: matrix(py, wheels, wheel_torques.copied().collect())?,
         })
     }
 }
@@ -67,6 +73,8 @@ pub fn to_tuple<'py>(py: Python<'py>, columns: &Columns) -> PyResult<Bound<'py, 
         &columns.joint_rates_rad_s,
         &columns.joint_accelerations_rad_s2,
         &columns.joint_torques_n_m,
+        &columns.wheel_momenta_n_m_s,
+        &columns.wheel_torques_n_m,
     ];
     let matrices = matrices.into_iter().chain(&columns.joint_jerks_rad_s3);
     let matrices = matrices.map(|array| array.bind(py).clone().into_any());
@@ -89,6 +97,9 @@ pub fn trajectory(arrays: &Bound<'_, PyTuple>) -> PyResult<Trajectory> {
     let (times, powers) = (vector(0)?, vector(1)?);
     let [positions, attitudes, velocities, angular_rates, angles, rates] =
         [matrix(2)?, matrix(3)?, matrix(4)?, matrix(5)?, matrix(6)?, matrix(7)?];
+    // Empty where there are no wheels.
+    let [wheel_momenta, wheel_torques] = [matrix(10)?, matrix(11)?];
+    let mut wheel_torques = wheel_torques.into_iter();
     let nodes: Option<Vec<Node>> = (0..times.len())
         .map(|k| {
             Some(Node {
@@ -100,12 +111,13 @@ pub fn trajectory(arrays: &Bound<'_, PyTuple>) -> PyResult<Trajectory> {
                 joint_angles_rad: angles.get(k)?.clone(),
                 joint_rates_rad_s: rates.get(k)?.clone(),
                 power_w: *powers.get(k)?,
+                wheel_momenta_n_m_s: wheel_momenta.get(k).cloned().unwrap_or_default(),
             })
         })
         .collect();
     let mut jerks = match arrays.len() {
-        ..=10 => Vec::new(),
-        _ => matrix(10)?,
+        ..=12 => Vec::new(),
+        _ => matrix(12)?,
     }
     .into_iter();
     let intervals = matrix(8)?.into_iter().zip(matrix(9)?);
@@ -114,6 +126,7 @@ pub fn trajectory(arrays: &Bound<'_, PyTuple>) -> PyResult<Trajectory> {
             joint_accelerations_rad_s2,
             joint_jerks_rad_s3: jerks.next().unwrap_or_default(),
             joint_torques_n_m,
+            wheel_torques_n_m: wheel_torques.next().unwrap_or_default(),
         })
         .collect();
     let nodes =

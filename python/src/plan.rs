@@ -297,6 +297,18 @@ impl Plan {
         Ok(self.columns(py)?.power_w.clone_ref(py))
     }
 
+    /// Momenta of the wheels about their axes at the nodes, N m s. Shape (N + 1, w); (0, 0) without wheels.
+    #[getter]
+    fn wheel_momenta_n_m_s(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.wheel_momenta_n_m_s.clone_ref(py))
+    }
+
+    /// Torques of the wheels, held over the steps, N m. Shape (N, w); (0, 0) without wheels.
+    #[getter]
+    fn wheel_torques_n_m(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        Ok(self.columns(py)?.wheel_torques_n_m.clone_ref(py))
+    }
+
     /// Joint torques and the power that they draw, counted in four ways, beside the power of reaction wheels.
     ///
     /// Parameters

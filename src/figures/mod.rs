@@ -13,7 +13,7 @@ use righting_planner::PlanError;
 use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
     FigureWriter, PowerComparison, attitude_svg, clearances_svg, convergence_svg, joints_svg,
-    loads_svg, momentum_svg, pointing_svg, power_svg, sparsity_svg,
+    loads_svg, momentum_svg, pointing_svg, power_svg, sparsity_svg, wheels_svg,
 };
 use righting_results::{SOLUTION_FILE, Solution, Trajectory};
 use righting_scenario::{Error, Scenario, WheelArray};
@@ -23,7 +23,7 @@ pub use self::formats::Formats;
 use crate::failure::Failure;
 use crate::output_folder::{
     ATTITUDE_FILE, CLEARANCES_FILE, CONVERGENCE_FILE, JOINTS_FILE, LOADS_FILE, MOMENTUM_FILE,
-    OutputFolder, POINTING_FILE, POWER_FIGURE_FILE, SPARSITY_FILE,
+    OutputFolder, POINTING_FILE, POWER_FIGURE_FILE, SPARSITY_FILE, WHEELS_FILE,
 };
 use crate::{output, plan_folder};
 
@@ -101,6 +101,8 @@ pub fn draw(
     ];
     let loads = loads_svg(solution, scenario.system(), &profile);
     figures.extend(loads.map(|figure| (LOADS_FILE, figure)));
+    let wheels = wheels_svg(solution, scenario.wheels(), trajectory);
+    figures.extend(wheels.map(|figure| (WHEELS_FILE, figure)));
     let clearances = clearances_svg(solution, trajectory, &histories);
     figures.extend(clearances.map(|figure| (CLEARANCES_FILE, figure)));
     let pointing = pointing_svg(solution, trajectory, &histories);

@@ -7,11 +7,12 @@ use righting_scenario::ConeSide;
 use righting_scenario::collision::Between;
 use righting_scenario::error::ShapeError;
 use righting_scenario::scenario::Scenario;
+use righting_scenario::wheels::stored;
 
 /// Momentum, clearances and angles from cones at every node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histories {
-    /// Angular momentum of the system about its center of mass, inertial axes, N m s.
+    /// Angular momentum of the system about its center of mass, its wheels' included, inertial axes, N m s.
     pub angular_momentum_n_m_s: Vec<Vector3<f64>>,
     /// The part H̃ of it that is the arm's motion relative to the base, body axes, N m s.
     pub arm_momentum_n_m_s: Vec<Vector3<f64>>,
@@ -77,7 +78,8 @@ impl Histories {
         for node in trajectory.nodes() {
             let state = node.state();
             let (angles, rates) = (&state.joint_angles, &state.joint_rates);
-            let momentum = model.angular_momentum(&state.angular_rate, angles, rates);
+            let momentum = model.angular_momentum(&state.angular_rate, angles, rates)
+                + stored(scenario.wheels(), &node.wheel_momenta_n_m_s);
             histories.angular_momentum_n_m_s.push(state.attitude.to_inertial(&momentum));
             histories.arm_momentum_n_m_s.push(model.h_tilde(angles, rates));
             let center = state.attitude.to_inertial(&model.center_of_mass(angles));

@@ -5,7 +5,7 @@ use std::fmt;
 
 use nalgebra::Vector3;
 use righting_scenario::scenario::Slew;
-use righting_scenario::{Leg, Maneuver, Scenario};
+use righting_scenario::{Environment, Leg, Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
 use crate::detumble::{largest_inertia_kg_m2, some_posture_is_slower};
@@ -53,6 +53,13 @@ pub enum Impossible {
         /// The largest angle by which it turns the base, deg.
         largest_deg: f64,
     },
+    /// No joint turns the base, and the only wheel that works turns it about one axis.
+    OneWheel {
+        /// That axis, a unit vector in body axes.
+        axis: Vector3<f64>,
+        /// Angle between it, whichever way it points, and the axis asked, deg.
+        off_deg: f64,
+    },
     /// The joints are too slow for the duration.
     TooShort {
         /// No motion of the joints turns the base by as much, deg.
@@ -77,6 +84,12 @@ impl Impossible {
     /// What makes the maneuver of a scenario impossible, if that is known without planning it. A slew that
     /// is within its tolerance of doing nothing is always possible.
     pub fn of(scenario: &Scenario) -> Option<Self> {
+        if scenario.wheels().iter().any(|wheel| !wheel.failed) {
+            return of_wheels(scenario);
+        }
+        if scenario.environment().is_some_and(Environment::acts) {
+            return None;
+        }
         match scenario.maneuver() {
             Maneuver::Slew(slew) if scenario.waypoints().is_empty() => of_slew(scenario, slew),
             // Every target is reached from the start, in all the time until then.
@@ -94,7 +107,7 @@ impl Impossible {
     /// is not what stands in the way.
     pub fn possible_axes(&self) -> &[Vector3<f64>] {
         match self {
-            Self::OneAxis { axis, .. } => std::slice::from_ref(axis),
+            Self::OneAxis { axis, .. } | Self::OneWheel { axis, .. } => std::slice::from_ref(axis),
             Self::OneJoint { axes, .. } => axes,
             _ => &[],
         }
@@ -159,6 +172,30 @@ fn of_slew(scenario: &Scenario, slew: &Slew) -> Option<Impossible> {
     })
 }
 
+/// Of a maneuver with wheels that work. One of them and a base that no joint turns: without momentum the base's rate is
+/// along Ĩ⁻¹ a, which never changes.
+fn of_wheels(scenario: &Scenario) -> Option<Impossible> {
+    let slew = scenario.maneuver().slew()?;
+    let wheels = scenario.wheels().iter();
+    let stores_nothing = wheels.clone().all(|wheel| wheel.initial_momentum_n_m_s == 0.0);
+    let is_at_rest = scenario.initial().angular_momentum_n_m_s == Vector3::zeros();
+    let works: Vec<_> = wheels.filter(|wheel| !wheel.failed).collect();
+    let [wheel] = works[..] else { return None };
+    let is_alone = TurnableAxes::new(scenario.system()).rank() == 0;
+    if !is_alone || !stores_nothing || !is_at_rest || scenario.environment().is_some() {
+        return None;
+    }
+    let posture = &scenario.initial().joint_angles_rad;
+    let inertia = scenario.system().model.locked_inertia(posture);
+    let axis = inertia.cholesky()?.solve(&Vector3::from(wheel.axis)).normalize();
+    let target = scenario.initial().attitude.conjugate().product(&slew.target).normalized();
+    let across = (target.vector - axis * axis.dot(&target.vector)).norm();
+    (across > ATTITUDE_ERROR).then(|| Impossible::OneWheel {
+        axis,
+        off_deg: off_axis_rad(&axis, &slew.axis).to_degrees(),
+    })
+}
+
 fn of_detumble(scenario: &Scenario) -> Option<Impossible> {
     let stopped_rad_s = scenario.stopped_rate_rad_s();
     let enough_rad_s = stopped_rad_s * (1.0 - NO_GAIN);
@@ -213,6 +250,12 @@ impl fmt::Display for Impossible {
                     axes.join(" or ")
                 )
             }
+            Self::OneWheel { axis, off_deg } => write!(
+                f,
+                "no joint turns the base, and the one wheel that works turns it about {} only; the axis asked is \
+                 {off_deg:.1}\u{b0} from it",
+                Shown(axis)
+            ),
             Self::TooShort { most_deg, angle_deg, duration_s } => write!(
                 f,
                 "the duration is too short for this arm; in {duration_s} s its joints turn the base by less \

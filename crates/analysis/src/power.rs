@@ -12,9 +12,9 @@
 //! without any torque, is the check.
 
 use nalgebra::Vector3;
-use righting_multibody::{Quaternion, State};
+use righting_multibody::State;
 use righting_results::FiniteOrNull;
-use righting_results::trajectory::{ControlInterval, Node, Trajectory};
+use righting_results::trajectory::{Node, Trajectory};
 use righting_scenario::error::ShapeError;
 use righting_scenario::scenario::Scenario;
 use righting_verifier::DormandPrince;
@@ -140,11 +140,9 @@ impl PowerProfile {
         }
         let mut integrator = DormandPrince::new(State::<f64>::dimension(model.joint_count()));
         let mut instants = Vec::with_capacity(QUADRATURE.len() * trajectory.steps());
-        for (k, (node, interval)) in
-            trajectory.nodes().iter().zip(trajectory.intervals()).enumerate()
-        {
+        for k in 0..trajectory.steps() {
             let (start_s, end_s) = (horizon.time_s(k), horizon.time_s(k + 1));
-            instants.extend(within(scenario, &mut integrator, node, interval, [start_s, end_s]));
+            instants.extend(within(scenario, &mut integrator, trajectory, k, [start_s, end_s]));
         }
         let energy_j = |node: &Node| model.kinetic_energy(&node.state());
         Ok(Self {
@@ -215,28 +213,28 @@ impl PowerProfile {
     }
 }
 
-/// The joints at the points of one interval, from `start_s` to `end_s`. From a state that cannot be
+/// The joints at the points of interval `k`, from `start_s` to `end_s`. From a state that cannot be
 /// followed, all later ones are NaN.
 fn within(
     scenario: &Scenario,
     integrator: &mut DormandPrince,
-    node: &Node,
-    interval: &ControlInterval,
+    trajectory: &Trajectory,
+    k: usize,
     [start_s, end_s]: [f64; 2],
 ) -> Vec<Instant> {
     let model = &scenario.system().model;
     let length_s = end_s - start_s;
     let mut reached = 0.0;
-    let mut x = node.state().to_vec();
+    let interval = &trajectory.intervals()[k];
+    let mut x = trajectory.nodes()[k].state().to_vec();
     let mut at = |(place, weight): (f64, f64)| {
         if place > reached {
             let before_s = reached * length_s;
             let duration_s = (place - reached) * length_s;
             let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
                 let control = interval.joint_accelerations_after(before_s + after_s);
-                let time_s = start_s + before_s + after_s;
-                let attitude = Quaternion::from_array([x[3], x[4], x[5], x[6]]);
-                let external = scenario.external(&attitude, time_s);
+                let state = State::from_slice(x).expect("as long as its own state");
+                let external = trajectory.external(scenario, (k, before_s + after_s), &state);
                 let derivative = model.state_derivative(x, &control, external.as_ref());
                 rate.copy_from_slice(&derivative);
             });
@@ -250,7 +248,7 @@ fn within(
         let control = interval.joint_accelerations_after(place * length_s);
         let (angles, rates) = (&state.joint_angles, &state.joint_rates);
         let time_s = if place == 1.0 { end_s } else { start_s + place * length_s };
-        let external = scenario.external(&state.attitude, time_s);
+        let external = trajectory.external(scenario, (k, place * length_s), &state);
         let dynamics =
             model.free_floating_dynamics(rate, angles, rates, &control, external.as_ref());
         let torques = dynamics.joint_torques;

@@ -178,6 +178,8 @@ mod tests {
             momentum_max_n_m_s: 0.2 + u[3],
             torque_max_n_m: 0.1 + u[4],
             steady_power_w: 0.0,
+            initial_momentum_n_m_s: 0.0,
+            failed: false,
         };
         let points = Halton::starting_after(5, 10 + 100 * seed);
         points.take(count).map(wheel).collect()
@@ -219,6 +221,8 @@ mod tests {
             momentum_max_n_m_s,
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
+            initial_momentum_n_m_s: 0.0,
+            failed: false,
         };
         let wheels = vec![
             wheel([1.0, 0.0, 0.0], 1.0),
@@ -272,6 +276,8 @@ mod tests {
             momentum_max_n_m_s: 1.0,
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
+            initial_momentum_n_m_s: 0.0,
+            failed: false,
         };
         for wheels in [vec![wheel(1.0, 0.0)], vec![wheel(1.0, 0.0), wheel(0.0, 1.0)]] {
             let zonotope = Zonotope::momenta(&wheels);

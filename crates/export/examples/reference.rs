@@ -51,12 +51,14 @@ fn at_rest(system: &SystemDescription) -> Result<Trajectory, Box<dyn std::error:
         joint_angles_rad: vec![0.0; j],
         joint_rates_rad_s: vec![0.0; j],
         power_w: 0.0,
+        wheel_momenta_n_m_s: Vec::new(),
     };
     let after = Node { time_s: 1.0, ..node.clone() };
     let still = ControlInterval {
         joint_accelerations_rad_s2: vec![0.0; j],
         joint_jerks_rad_s3: Vec::new(),
         joint_torques_n_m: vec![0.0; j],
+        wheel_torques_n_m: Vec::new(),
     };
     Ok(Trajectory::new(vec![node, after], vec![still])?)
 }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use righting_multibody::Quaternion;
 use righting_results::{Node, Trajectory};
 use righting_scenario::Scenario;
 use serde::Serialize;
@@ -64,13 +63,13 @@ impl JointTrajectory {
             let torques = match trajectory.intervals().get(k) {
                 Some(interval) => interval.joint_torques_n_m.clone(),
                 None => {
-                    let attitude = Quaternion::from_array(node.attitude);
+                    let external = trajectory.external(scenario, (k, 0.0), &node.state());
                     system.model.joint_torques(
                         &node.angular_rate_rad_s.into(),
                         &node.joint_angles_rad,
                         &node.joint_rates_rad_s,
                         &accelerations,
-                        scenario.external(&attitude, node.time_s).as_ref(),
+                        external.as_ref(),
                     )
                 }
             };

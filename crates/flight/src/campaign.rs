@@ -93,12 +93,16 @@ impl<'a> Campaign<'a> {
     /// Of a plan of the scenario.
     ///
     /// # Errors
-    /// Those of [`Feedback::new`] or [`Replanner::new`], as the settings have it.
+    /// Those of [`Feedback::new`] or [`Replanner::new`], as the settings have it; [`PlanError::NotReplanned`] for a
+    /// plan with wheels.
     pub fn new(
         scenario: &'a Scenario,
         plan: &'a Trajectory,
         settings: Settings,
     ) -> Result<Self, PlanError> {
+        if !scenario.wheels().is_empty() {
+            return Err(PlanError::NotReplanned("wheels: plans with wheels are not flown"));
+        }
         let pilot = match settings.control {
             Control::OpenLoop => Pilot::OpenLoop,
             Control::Feedback => Pilot::Feedback(Box::new(Feedback::new(scenario, plan)?)),

@@ -51,7 +51,7 @@ impl Feedback {
     /// About a plan of a slew.
     ///
     /// # Errors
-    /// [`PlanError::NoFeedback`] when the maneuver is no slew or its jerks are limited, [`PlanError::Shape`] when the plan is of other
+    /// [`PlanError::NoFeedback`] when the maneuver is no slew, its jerks are limited or it has wheels, [`PlanError::Shape`] when the plan is of other
     /// joints.
     pub fn new(scenario: &Scenario, plan: &Trajectory) -> Result<Self, PlanError> {
         if !matches!(scenario.maneuver(), Maneuver::Slew(_)) {
@@ -59,6 +59,11 @@ impl Feedback {
         }
         if scenario.system().limits_jerk() {
             return Err(PlanError::NoFeedback(JERKS));
+        }
+        if !scenario.wheels().is_empty() {
+            return Err(PlanError::NoFeedback(
+                "wheels: there is no feedback for plans with wheels",
+            ));
         }
         crate::planner::require_same_joints(scenario, Some(plan))?;
         let (scenario, scaling) = Scaling::applied(scenario)?;
@@ -108,7 +113,7 @@ impl Feedback {
     fn off(&self, state: &[f64], planned: &[f64]) -> DVector<f64> {
         let attitude = self.coordinates.attitude_of(state);
         let turned = attitude.error_vector(&self.coordinates.attitude_of(planned)) * 2.0;
-        let joints = self.coordinates.joint_states();
+        let joints = self.coordinates.driven_states();
         let joints = state[joints.clone()].iter().zip(&planned[joints]).map(|(x, there)| x - there);
         DVector::from_iterator(3 + 2 * self.controls[0].len(), turned.iter().copied().chain(joints))
     }
@@ -124,7 +129,7 @@ impl Feedback {
                 let attitude = attitude.product(&Quaternion::from_array(turn)).normalized();
                 state[self.coordinates.attitude()].copy_from_slice(&attitude.to_array());
             }
-            _ => state[self.coordinates.joint_states()][entry - 3] += by,
+            _ => state[self.coordinates.driven_states()][entry - 3] += by,
         }
         state
     }

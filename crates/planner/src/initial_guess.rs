@@ -2,6 +2,7 @@
 
 mod effort;
 mod joint_loops;
+mod wheels;
 
 use std::f64::consts::PI;
 
@@ -35,8 +36,8 @@ pub(crate) struct InitialGuesses<'a> {
 impl InitialGuesses<'_> {
     /// The state held at the start, no control: the paper's guess.
     pub(crate) fn constant(&self) -> InitialGuess {
-        let joints = self.scenario.system().joint_count();
-        let mut guess = InitialGuess::constant(self.initial, joints, self.steps);
+        let controls = self.coordinates.control_dimension();
+        let mut guess = InitialGuess::constant(self.initial, controls, self.steps);
         for node in 1..=self.steps {
             self.coordinates.set_time(guess.states.row_mut(node), self.time(node));
         }
@@ -95,7 +96,7 @@ impl InitialGuesses<'_> {
         share: f64,
     ) -> InitialGuess {
         let mut guess = InitialGuess { states: states.clone(), controls: controls.clone() };
-        let joints = self.coordinates.joint_states();
+        let joints = self.coordinates.driven_states();
         for node in 1..=self.steps {
             let row = &mut guess.states.row_mut(node)[joints.clone()];
             let change =
@@ -164,6 +165,9 @@ impl InitialGuesses<'_> {
             let row = self.coordinates.of_free_floating_state(&state, self.time(node));
             guess.states.row_mut(node).copy_from_slice(&row);
         }
+        if plan.wheels() == self.scenario.wheels().len() {
+            self.take_wheels(plan, &mut guess);
+        }
         for joint in 0..plan.joints() {
             self.accelerate(&mut guess, joint, |steps| {
                 let phase = steps / self.steps as f64;
@@ -171,6 +175,24 @@ impl InitialGuesses<'_> {
             });
         }
         self.to_end_posture(guess)
+    }
+
+    /// Takes the momenta of the wheels that work from an earlier plan, and with them their torques.
+    fn take_wheels(&self, plan: &Trajectory, guess: &mut InitialGuess) {
+        let (first, step_s) = (self.coordinates.first_wheel(), self.step_s());
+        let works = self.scenario.wheels().iter().enumerate().filter(|(_, wheel)| !wheel.failed);
+        for (place, ((wheel, _), state)) in works.zip(self.coordinates.wheels()).enumerate() {
+            for node in 1..=self.steps {
+                let position = node as f64 * plan.steps() as f64 / self.steps as f64;
+                let before = (position.floor() as usize).min(plan.steps() - 1);
+                let [a, b] =
+                    [before, before + 1].map(|node| plan.nodes()[node].wheel_momenta_n_m_s[wheel]);
+                let momentum = a + (position - before as f64) * (b - a);
+                let gained = momentum - guess.states.row(node - 1)[state];
+                guess.states.row_mut(node)[state] = momentum;
+                guess.controls.row_mut(node - 1)[first + place] = gained / step_s;
+            }
+        }
     }
 
     /// Adds a joint's acceleration, a function of time counted in steps: held at its values in the middles of
@@ -200,7 +222,7 @@ impl InitialGuesses<'_> {
     /// The earlier plan of a slew backwards or in a mirror, if that ends nearer to the target.
     fn nearest_image(&self, plan: &Trajectory) -> Option<Trajectory> {
         let slew = self.scenario.maneuver().slew()?;
-        if !self.scenario.waypoints().is_empty() {
+        if !self.scenario.waypoints().is_empty() || plan.wheels() > 0 {
             return None;
         }
         let wanted = self.scenario.initial().attitude.conjugate().product(&slew.target);

@@ -142,22 +142,33 @@ fn trajectory(
     let steps = scenario.horizon().steps;
     let mut nodes = Vec::with_capacity(steps + 1);
     let mut intervals = Vec::with_capacity(steps);
-    // The joints' own motion, exactly as the controls have it: the optimizer's defects would add up.
+    // The motion of joints and wheels, exactly as the controls have it: the optimizer's defects would add up.
     let step_s = scaling.duration(scenario.horizon().step_s());
     let coordinates = &found.coordinates;
-    let mut joints = found.solution.states.row(0).to_vec();
+    let mut driven = found.solution.states.row(0).to_vec();
     for k in 0..=steps {
         let mut row = found.solution.states.row(k).to_vec();
-        coordinates.copy_joints(&joints, &mut row);
+        coordinates.copy_driven(&driven, &mut row);
         let state = scaling.state(coordinates.free_floating_state(&row));
-        let controls = found.solution.controls.row(k.min(steps - 1));
-        let accelerations = coordinates.accelerations(&joints, controls);
+        let mut controls = found.solution.controls.row(k.min(steps - 1)).to_vec();
         if k < steps {
-            coordinates.move_joints(&mut joints, controls, step_s);
+            coordinates.keep_wheels_within(&driven, &mut controls, step_s);
+        }
+        let controls = &controls;
+        let accelerations = coordinates.accelerations(&driven, controls);
+        let wheel_momenta_n_m_s = scaling.wheel_momenta(&coordinates.wheel_momenta(&driven));
+        let wheel_torques_n_m = scaling.wheel_torques(&coordinates.all_wheel_torques(controls));
+        if k < steps {
+            coordinates.move_driven(&mut driven, controls, step_s);
         }
         let accelerations = scaling.accelerations(&accelerations);
         let time_s = scenario.horizon().time_s(k);
-        let external = scenario.external(&state.attitude, time_s);
+        let external = scenario.external(
+            &state.attitude,
+            &state.angular_rate,
+            time_s,
+            (&wheel_momenta_n_m_s, &wheel_torques_n_m),
+        );
         let torques = system.joint_torques(
             &state.angular_rate,
             &state.joint_angles,
@@ -178,6 +189,7 @@ fn trajectory(
                 .sum(),
             joint_angles_rad: state.joint_angles,
             joint_rates_rad_s: state.joint_rates,
+            wheel_momenta_n_m_s,
         });
         if k < steps {
             intervals.push(ControlInterval {
@@ -187,6 +199,7 @@ fn trajectory(
                     false => Vec::new(),
                 },
                 joint_torques_n_m: torques,
+                wheel_torques_n_m,
             });
         }
     }

@@ -29,6 +29,7 @@ const ITERATIONS: u32 = 40;
 /// What is not planned anew.
 const JERKS: &str =
     "links[].jerk_max_deg_s3: maneuvers with limited jerks are not planned anew on the way";
+const WHEELS: &str = "wheels: maneuvers with wheels are not planned anew on the way";
 const WAYPOINTS: &str = "maneuver.waypoints: slews with waypoints are not planned anew on the way";
 
 /// What is planned for the rest of a maneuver.
@@ -75,7 +76,7 @@ impl Replanner {
     /// # Errors
     /// [`PlanError::Shape`] when the plan is of other joints or another grid, [`PlanError::Ocp`] when it is
     /// not near a solution, [`PlanError::NotReplanned`] when jerks are limited or there are
-    /// waypoints.
+    /// waypoints or wheels.
     pub fn new(scenario: &Scenario, plan: &Trajectory) -> Result<Self, PlanError> {
         let counts = [
             ("joints of the plan", plan.joints(), scenario.system().joint_count()),
@@ -91,6 +92,9 @@ impl Replanner {
         }
         if !scenario.waypoints().is_empty() {
             return Err(PlanError::NotReplanned(WAYPOINTS));
+        }
+        if !scenario.wheels().is_empty() {
+            return Err(PlanError::NotReplanned(WHEELS));
         }
         let fixed = match scenario.free_duration() {
             Some(_) => scenario.clone().with_duration(plan.end().time_s),

@@ -85,7 +85,7 @@ impl Scaling {
         let weights = measured.weights();
         let objective = match measured.maneuver() {
             Maneuver::Slew(_) => {
-                weights.control * effort(&measured) + weights.time * measured.horizon().duration_s
+                least_effort_cost(&measured) + weights.time * measured.horizon().duration_s
             }
             Maneuver::Detumble => {
                 weights.angular_rate * measured.stopped_rate_rad_s().powi(2) / DRIFT_COST
@@ -164,6 +164,17 @@ impl Scaling {
         measured.iter().map(|jerk| jerk / self.units.time_s.powi(3)).collect()
     }
 
+    /// Momenta of wheels in SI units.
+    pub(crate) fn wheel_momenta(&self, measured: &[f64]) -> Vec<f64> {
+        let unit = self.units.torque_n_m() * self.units.time_s;
+        measured.iter().map(|momentum| momentum * unit).collect()
+    }
+
+    /// Torques of wheels in SI units.
+    pub(crate) fn wheel_torques(&self, measured: &[f64]) -> Vec<f64> {
+        measured.iter().map(|torque| torque * self.units.torque_n_m()).collect()
+    }
+
     /// An iteration's record with the objective in the file's weights.
     pub(crate) fn record(&self, measured: &IterationRecord) -> IterationRecord {
         let objective = measured.objective * self.objective;
@@ -173,12 +184,16 @@ impl Scaling {
     /// A motion of the same system in these units; its torques and powers stay as they are.
     pub(crate) fn trajectory(&self, motion: &Trajectory) -> Trajectory {
         let Units { length_m, time_s, .. } = self.units;
+        let torque_n_m = self.units.torque_n_m();
+        let of_wheels =
+            |values: &[f64], unit: f64| values.iter().map(|value| value / unit).collect();
         let nodes = motion.nodes().iter().map(|node| Node {
             time_s: node.time_s / time_s,
             position_m: node.position_m.map(|position| position / length_m),
             velocity_m_s: node.velocity_m_s.map(|velocity| velocity * (time_s / length_m)),
             angular_rate_rad_s: node.angular_rate_rad_s.map(|rate| rate * time_s),
             joint_rates_rad_s: node.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            wheel_momenta_n_m_s: of_wheels(&node.wheel_momenta_n_m_s, torque_n_m * time_s),
             ..node.clone()
         });
         let intervals = motion.intervals().iter().map(|interval| {
@@ -187,6 +202,7 @@ impl Scaling {
             ControlInterval {
                 joint_accelerations_rad_s2: accelerations.map(|u| u * time_s.powi(2)).collect(),
                 joint_jerks_rad_s3: jerks.map(|jerk| jerk * time_s.powi(3)).collect(),
+                wheel_torques_n_m: of_wheels(&interval.wheel_torques_n_m, torque_n_m),
                 ..interval.clone()
             }
         });
@@ -248,6 +264,17 @@ pub(crate) fn largest_turn_rad(scenario: &Scenario, slew: &Slew) -> f64 {
     }
 }
 
+/// About what the effort of a slew costs at least: the arm's, or the wheels' where they can do without it.
+fn least_effort_cost(measured: &Scenario) -> f64 {
+    let weights = measured.weights();
+    let of_arm = weights.control * effort(measured);
+    let coordinates = Coordinates::new(measured, Formulation::Reduced);
+    let initial = coordinates.initial(measured.initial());
+    let guesses = guesses(measured, &coordinates, &initial);
+    let of_wheels = guesses.wheel_effort(SMALLEST_SLEW_RAD);
+    of_wheels.map_or(of_arm, |effort| of_arm.min(weights.wheel_torque * effort))
+}
+
 /// About what ∫‖q̈‖² dt over the reference interval a slew takes at least, from motions that make its legs.
 fn effort(measured: &Scenario) -> f64 {
     let legs = measured.legs().into_iter().filter(|leg| leg.end > leg.start);
@@ -261,12 +288,13 @@ fn effort(measured: &Scenario) -> f64 {
 fn effort_of_turn(measured: &Scenario) -> f64 {
     let coordinates = Coordinates::new(measured, Formulation::Reduced);
     let initial = coordinates.initial(measured.initial());
-    let guesses = InitialGuesses {
-        scenario: measured,
-        coordinates: &coordinates,
-        initial: &initial,
-        steps: ESTIMATE_STEPS,
-        substeps: 1,
-    };
-    guesses.least_effort(SMALLEST_SLEW_RAD)
+    guesses(measured, &coordinates, &initial).least_effort(SMALLEST_SLEW_RAD)
+}
+
+fn guesses<'a>(
+    scenario: &'a Scenario,
+    coordinates: &'a Coordinates,
+    initial: &'a [f64],
+) -> InitialGuesses<'a> {
+    InitialGuesses { scenario, coordinates, initial, steps: ESTIMATE_STEPS, substeps: 1 }
 }

@@ -86,6 +86,7 @@ impl<'a> Motion<'a> {
             joint_angles_rad: state.joint_angles,
             joint_rates_rad_s: state.joint_rates,
             power_w: 0.0,
+            wheel_momenta_n_m_s: Vec::new(),
         };
         Self { scenario, nodes: vec![start], intervals: Vec::new() }
     }
@@ -122,6 +123,7 @@ impl<'a> Motion<'a> {
                 joint_accelerations_rad_s2: vec![0.0; joints],
                 joint_jerks_rad_s3: vec![0.0; jerks],
                 joint_torques_n_m: vec![0.0; joints],
+                wheel_torques_n_m: Vec::new(),
             });
         }
     }

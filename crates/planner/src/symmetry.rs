@@ -111,13 +111,14 @@ impl Mirror {
                 .into(),
                 joint_angles_rad: self.joints(&node.joint_angles_rad),
                 joint_rates_rad_s: self.joints(&node.joint_rates_rad_s),
-                ..*node
+                ..node.clone()
             }
         });
         let intervals = motion.intervals().iter().map(|interval| ControlInterval {
             joint_accelerations_rad_s2: self.joints(&interval.joint_accelerations_rad_s2),
             joint_jerks_rad_s3: self.joints(&interval.joint_jerks_rad_s3),
             joint_torques_n_m: self.joints(&interval.joint_torques_n_m),
+            ..interval.clone()
         });
         joined(nodes.collect(), intervals.collect())
     }
@@ -149,6 +150,7 @@ pub(crate) fn reversed(motion: &Trajectory) -> Trajectory {
         joint_angles_rad: node.joint_angles_rad.clone(),
         joint_rates_rad_s: node.joint_rates_rad_s.iter().map(|rate| -rate).collect(),
         power_w: -node.power_w,
+        ..node.clone()
     });
     let lengths = motion.nodes().windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
     let intervals = motion.intervals().iter().zip(lengths).rev().map(|(interval, length_s)| {
@@ -239,11 +241,13 @@ mod tests {
             joint_angles_rad: vec![angle],
             joint_rates_rad_s: vec![0.5],
             power_w: 1.0,
+            wheel_momenta_n_m_s: Vec::new(),
         };
         let interval = |u: f64| ControlInterval {
             joint_accelerations_rad_s2: vec![u],
             joint_jerks_rad_s3: vec![0.2],
             joint_torques_n_m: vec![2.0 * u],
+            wheel_torques_n_m: Vec::new(),
         };
         let nodes = vec![node(0.0, 0.0), node(1.0, 0.3), node(2.0, 0.4)];
         let motion = joined(nodes, vec![interval(0.1), interval(0.2)]);

@@ -69,7 +69,8 @@ fn the_gentlest_slew_of_a_planar_arm_is_the_trapezoid_of_its_closed_form() {
         file.horizon.duration_s = Duration::Given(duration_s);
         file.horizon.steps = steps as f64;
         // So dear that what the end costs less effort does not count.
-        file.end = Some(file::End { hard: Some(false), joint_angles_deg: None });
+        file.end =
+            Some(file::End { hard: Some(false), joint_angles_deg: None, ..file::End::default() });
         file.weights.attitude = Some(1e6);
         file.weights.angular_rate = Some(1e6);
         file.weights.joint_rate = Some(1e6);

@@ -25,7 +25,8 @@ fn assert_verified(planned: &Planned) {
 fn ending_at(name: &str, angles_deg: &[Option<f64>]) -> Scenario {
     varied(&shipped(name), |file| {
         file.horizon.steps = 120.0;
-        file.end = Some(End { hard: None, joint_angles_deg: Some(angles_deg.to_vec()) });
+        file.end =
+            Some(End { hard: None, joint_angles_deg: Some(angles_deg.to_vec()), ..End::default() });
     })
 }
 

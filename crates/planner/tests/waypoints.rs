@@ -95,6 +95,7 @@ fn times_of_legs_are_those_of_the_file() {
         file.end = Some(file::End {
             hard: None,
             joint_angles_deg: Some(vec![Some(10.0), None, None, None]),
+            ..file::End::default()
         });
     });
     let Maneuver::Slew(slew) = scenario.maneuver() else { panic!("a slew") };

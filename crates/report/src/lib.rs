@@ -59,6 +59,7 @@ mod summary;
 mod svg;
 mod table;
 mod turn_rates;
+mod wheels;
 
 pub use asked::{phrase as asked_phrase, planned_phrase as maneuver_phrase};
 pub use attitude::attitude_svg;
@@ -85,3 +86,4 @@ pub use slews::slews_svg;
 pub use sparsity::sparsity_svg;
 pub use summary::{status_phrase, summary, verification_summary};
 pub use turn_rates::turn_rates_svg;
+pub use wheels::wheels_svg;

@@ -75,7 +75,7 @@ impl WaypointRecord {
 }
 
 /// The objective of a trajectory in its scenario's weights: w_u ∫ q̈ᵀq̈ dt / 0.05 s and the
-/// weighted squared errors of the last node, and the weighted duration where that was free. Position, velocity
+/// weighted squared errors of the last node, the same integral of the wheels' torques, and the weighted duration where that was free. Position, velocity
 /// and rates shall be zero; joint angles those in which the joints shall end, and where that is open those of the
 /// start, as the attitude of a detumble. Where the base may drift, its rate is the one beyond the drift.
 pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
@@ -95,6 +95,8 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
     };
     let step_s = scenario.horizon().step_s();
     let effort: f64 = trajectory.intervals().iter().map(|i| mean_square(i, step_s)).sum();
+    let intervals = trajectory.intervals().iter();
+    let wheel_effort: f64 = intervals.map(|i| sum_of_squares(&i.wheel_torques_n_m)).sum();
     let desired_angles = scenario.desired_joint_angles_rad();
     let angles = end.joint_angles.iter().zip(&desired_angles);
     let joint_error: f64 = angles.map(|(end, desired)| (end - desired).powi(2)).sum();
@@ -106,6 +108,8 @@ pub fn objective(scenario: &Scenario, trajectory: &Trajectory) -> f64 {
         + weights.angular_rate * rate.norm_squared()
         + weights.joint_angle * joint_error
         + weights.joint_rate * sum_of_squares(&end.joint_rates)
+        + weights.wheel_torque_per_step(scenario.horizon()) * wheel_effort
+        + weights.wheel_momentum * sum_of_squares(&trajectory.end().wheel_momenta_n_m_s)
 }
 
 /// The mean of ‖q̈‖² over an interval; q̈ is linear in it.

@@ -1,7 +1,8 @@
 //! A planned maneuver, node by node.
 
 use nalgebra::Vector3;
-use righting_multibody::{Quaternion, State};
+use righting_multibody::{External, Quaternion, State};
+use righting_scenario::Scenario;
 use righting_scenario::error::ShapeError;
 
 /// The free-floating system at one instant, with the power its joints take.
@@ -27,6 +28,8 @@ pub struct Node {
     /// Mechanical power of the joints Σ τ q̇ with the control of the interval that starts here; at
     /// the last node, of the interval that ends there.
     pub power_w: f64,
+    /// Momenta of the wheels about their axes, relative to the base, one a wheel.
+    pub wheel_momenta_n_m_s: Vec<f64>,
 }
 
 impl Node {
@@ -53,6 +56,8 @@ pub struct ControlInterval {
     pub joint_jerks_rad_s3: Vec<f64>,
     /// Joint torques at the interval's first node.
     pub joint_torques_n_m: Vec<f64>,
+    /// Torques of the wheels, held over the interval: the rates of their momenta, one a wheel.
+    pub wheel_torques_n_m: Vec<f64>,
 }
 
 impl ControlInterval {
@@ -70,7 +75,7 @@ impl ControlInterval {
     }
 }
 
-/// A trajectory of N intervals between N + 1 nodes; N ≥ 1, and every part has the same joints.
+/// A trajectory of N intervals between N + 1 nodes; N ≥ 1, and every part has the same joints and wheels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     nodes: Vec<Node>,
@@ -81,7 +86,7 @@ impl Trajectory {
     /// Joins nodes and intervals.
     ///
     /// # Errors
-    /// There must be one more node than intervals, at least one interval, the same number of joints
+    /// There must be one more node than intervals, at least one interval, the same number of joints and of wheels
     /// everywhere, and jerks in all intervals or in none.
     pub fn new(nodes: Vec<Node>, intervals: Vec<ControlInterval>) -> Result<Self, ShapeError> {
         let require = |what: &dyn Fn() -> String, found: usize, needed: usize| {
@@ -91,15 +96,20 @@ impl Trajectory {
         require(&|| "intervals".to_owned(), intervals.len(), steps)?;
         require(&|| "nodes".to_owned(), nodes.len(), steps + 1)?;
         let joints = nodes[0].joint_angles_rad.len();
+        let wheels = nodes[0].wheel_momenta_n_m_s.len();
         for (k, node) in nodes.iter().enumerate() {
             require(&|| format!("joint angles of node {k}"), node.joint_angles_rad.len(), joints)?;
             require(&|| format!("joint rates of node {k}"), node.joint_rates_rad_s.len(), joints)?;
+            let momenta = node.wheel_momenta_n_m_s.len();
+            require(&|| format!("wheel momenta of node {k}"), momenta, wheels)?;
         }
         for (k, interval) in intervals.iter().enumerate() {
             let accelerations = interval.joint_accelerations_rad_s2.len();
             require(&|| format!("joint accelerations of interval {k}"), accelerations, joints)?;
             let torques = interval.joint_torques_n_m.len();
             require(&|| format!("joint torques of interval {k}"), torques, joints)?;
+            let torques = interval.wheel_torques_n_m.len();
+            require(&|| format!("wheel torques of interval {k}"), torques, wheels)?;
             let jerks = if intervals[0].joint_jerks_rad_s3.is_empty() { 0 } else { joints };
             let found = interval.joint_jerks_rad_s3.len();
             require(&|| format!("joint jerks of interval {k}"), found, jerks)?;
@@ -120,6 +130,38 @@ impl Trajectory {
     /// Number of joints j.
     pub fn joints(&self) -> usize {
         self.nodes[0].joint_angles_rad.len()
+    }
+
+    /// Number of wheels.
+    pub fn wheels(&self) -> usize {
+        self.nodes[0].wheel_momenta_n_m_s.len()
+    }
+
+    /// Torques of the wheels at node `k`, N m: those of the interval that begins there, and at the last node of the
+    /// one that ends there.
+    pub fn wheel_torques_at(&self, k: usize) -> &[f64] {
+        &self.intervals[k.min(self.steps() - 1)].wheel_torques_n_m
+    }
+
+    /// Momenta of the wheels a time after node `k`, within its interval, N m s.
+    pub fn wheel_momenta_after(&self, k: usize, after_s: f64) -> Vec<f64> {
+        let momenta = self.nodes[k].wheel_momenta_n_m_s.iter();
+        let pairs = momenta.zip(self.wheel_torques_at(k));
+        pairs.map(|(momentum, torque)| momentum + after_s * torque).collect()
+    }
+
+    /// What acts on the scenario's system from outside and by its wheels where it moves as `state`, a time after node
+    /// `k` and within its interval; none where nothing does.
+    pub fn external(
+        &self,
+        scenario: &Scenario,
+        (k, after_s): (usize, f64),
+        state: &State<f64>,
+    ) -> Option<External<f64>> {
+        let momenta = self.wheel_momenta_after(k, after_s);
+        let time_s = self.nodes[k].time_s + after_s;
+        let wheels = (&momenta[..], self.wheel_torques_at(k));
+        scenario.external(&state.attitude, &state.angular_rate, time_s, wheels)
     }
 
     /// Whether accelerations are linear between nodes, by the intervals' jerks, rather than held.
@@ -177,6 +219,7 @@ mod tests {
             joint_angles_rad: vec![0.0; joints],
             joint_rates_rad_s: vec![0.0; joints],
             power_w: 0.0,
+            wheel_momenta_n_m_s: Vec::new(),
         }
     }
 
@@ -185,6 +228,7 @@ mod tests {
             joint_accelerations_rad_s2: vec![0.0; joints],
             joint_jerks_rad_s3: Vec::new(),
             joint_torques_n_m: vec![0.0; joints],
+            wheel_torques_n_m: Vec::new(),
         }
     }
 
@@ -200,6 +244,8 @@ mod tests {
             refused(vec![node(2), node(2)], vec![interval(1)]),
             "joint accelerations of interval 0"
         );
+        let wheeled = ControlInterval { wheel_torques_n_m: vec![0.0], ..interval(2) };
+        assert_eq!(refused(vec![node(2), node(2)], vec![wheeled]), "wheel torques of interval 0");
         let jerked = ControlInterval { joint_jerks_rad_s3: vec![0.0; 2], ..interval(2) };
         let nodes = || vec![node(2), node(2), node(2)];
         assert!(Trajectory::new(nodes(), vec![jerked.clone(); 2]).unwrap().has_jerks());

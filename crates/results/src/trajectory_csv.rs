@@ -18,12 +18,16 @@ const BASE_COLUMNS: [&str; 14] = [
 
 /// The first of the columns that a trajectory with jerks has beside those of any other.
 const FIRST_JERK: &str = "j1_rad_s3";
+/// How the columns of the wheels' momenta begin.
+const WHEEL_MOMENTUM: &str = "hw";
 
-/// The header of a trajectory with `joints` joints; `with_jerks` adds the columns of their jerks.
-pub fn header(joints: usize, with_jerks: bool) -> Vec<String> {
-    let per_joint = |prefix: &'static str, unit: &'static str| {
-        (1..=joints).map(move |i| format!("{prefix}{i}_{unit}"))
+/// The header of a trajectory with `joints` joints; `with_jerks` adds the columns of their jerks, and then come
+/// momenta and torques of the `wheels`.
+pub fn header(joints: usize, with_jerks: bool, wheels: usize) -> Vec<String> {
+    let per = |count: usize, prefix: &'static str, unit: &'static str| {
+        (1..=count).map(move |i| format!("{prefix}{i}_{unit}"))
     };
+    let per_joint = |prefix, unit| per(joints, prefix, unit);
     BASE_COLUMNS
         .iter()
         .map(|&name| name.to_owned())
@@ -33,6 +37,8 @@ pub fn header(joints: usize, with_jerks: bool) -> Vec<String> {
         .chain(per_joint("tau", "n_m"))
         .chain(std::iter::once("power_w".to_owned()))
         .chain(per_joint("j", "rad_s3").take(if with_jerks { joints } else { 0 }))
+        .chain(per(wheels, WHEEL_MOMENTUM, "n_m_s"))
+        .chain(per(wheels, "tauw", "n_m"))
         .collect()
 }
 
@@ -45,12 +51,13 @@ impl Trajectory {
         file_io::replace(file, |writer| self.print_csv(writer))
     }
 
-    /// Prints the table: the u, tau and j cells of the last row are empty.
+    /// Prints the table: the u, tau, j and tauw cells of the last row are empty.
     ///
     /// # Errors
     /// Those of the writer.
     pub fn print_csv(&self, writer: &mut dyn Write) -> io::Result<()> {
-        writeln!(writer, "{}", header(self.joints(), self.has_jerks()).join(","))?;
+        let names = header(self.joints(), self.has_jerks(), self.wheels());
+        writeln!(writer, "{}", names.join(","))?;
         for (k, node) in self.nodes().iter().enumerate() {
             write!(writer, "{:.16e}", node.time_s)?;
             let base = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
@@ -78,6 +85,17 @@ impl Trajectory {
                 }
                 None if self.has_jerks() => write!(writer, "{}", ",".repeat(self.joints()))?,
                 None => {}
+            }
+            for momentum in &node.wheel_momenta_n_m_s {
+                write!(writer, ",{momentum:.16e}")?;
+            }
+            match self.intervals().get(k) {
+                Some(interval) => {
+                    for torque in &interval.wheel_torques_n_m {
+                        write!(writer, ",{torque:.16e}")?;
+                    }
+                }
+                None => write!(writer, "{}", ",".repeat(self.wheels()))?,
             }
             writeln!(writer)?;
         }
@@ -110,13 +128,14 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
     };
     let has_jerks = head.iter().any(|name| name == FIRST_JERK);
     let columns_a_joint = if has_jerks { 5 } else { 4 };
-    let joints = head.len().saturating_sub(BASE_COLUMNS.len() + 1) / columns_a_joint;
-    let names = header(joints, has_jerks);
+    let wheels = head.iter().filter(|name| name.starts_with(WHEEL_MOMENTUM)).count();
+    let others = BASE_COLUMNS.len() + 1 + 2 * wheels;
+    let joints = head.len().saturating_sub(others) / columns_a_joint;
+    let names = header(joints, has_jerks, wheels);
     if joints == 0 || head.len() != names.len() {
-        let expected = match has_jerks {
-            true => "14 columns, 5 for each joint and power_w",
-            false => "14 columns, 4 for each joint and power_w",
-        };
+        let of_wheels = if wheels > 0 { ", 2 for each wheel" } else { "" };
+        let expected =
+            format!("14 columns, {columns_a_joint} for each joint{of_wheels} and power_w");
         return Err(wrong(1, &format_args!("{} columns", head.len()), &expected));
     }
     if let Some((found, name)) = head.iter().zip(&names).find(|(found, name)| found != name) {
@@ -144,6 +163,7 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
             joint_angles_rad: row.several(joints)?,
             joint_rates_rad_s: row.several(joints)?,
             power_w: 0.0,
+            wheel_momenta_n_m_s: Vec::new(),
         };
         if last {
             row.empty(2 * joints)?;
@@ -152,15 +172,22 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
                 joint_accelerations_rad_s2: row.several(joints)?,
                 joint_jerks_rad_s3: Vec::new(),
                 joint_torques_n_m: row.several(joints)?,
+                wheel_torques_n_m: Vec::new(),
             });
         }
         node.power_w = row.number()?;
-        nodes.push(node);
-        match intervals.last_mut() {
+        let mut begins = intervals.last_mut().filter(|_| !last);
+        match &mut begins {
             _ if !has_jerks => {}
-            Some(interval) if !last => interval.joint_jerks_rad_s3 = row.several(joints)?,
-            _ => row.empty(joints)?,
+            Some(interval) => interval.joint_jerks_rad_s3 = row.several(joints)?,
+            None => row.empty(joints)?,
         }
+        node.wheel_momenta_n_m_s = row.several(wheels)?;
+        match begins {
+            Some(interval) => interval.wheel_torques_n_m = row.several(wheels)?,
+            None => row.empty(wheels)?,
+        }
+        nodes.push(node);
     }
     Ok(Trajectory::new(nodes, intervals)?)
 }

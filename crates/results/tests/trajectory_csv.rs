@@ -7,7 +7,7 @@ use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::Error;
 
 /// A trajectory of awkward numbers: every bit pattern of a finite double is fair.
-fn awkward(joints: usize, steps: usize, with_jerks: bool) -> Trajectory {
+fn awkward(joints: usize, steps: usize, with_jerks: bool, wheels: usize) -> Trajectory {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut number = || loop {
         state ^= state << 13;
@@ -29,6 +29,7 @@ fn awkward(joints: usize, steps: usize, with_jerks: bool) -> Trajectory {
             joint_angles_rad: several(joints),
             joint_rates_rad_s: several(joints),
             power_w: several(1)[0],
+            wheel_momenta_n_m_s: several(wheels),
         })
         .collect();
     let intervals = (0..steps)
@@ -36,6 +37,7 @@ fn awkward(joints: usize, steps: usize, with_jerks: bool) -> Trajectory {
             joint_accelerations_rad_s2: several(joints),
             joint_jerks_rad_s3: several(if with_jerks { joints } else { 0 }),
             joint_torques_n_m: several(joints),
+            wheel_torques_n_m: several(wheels),
         })
         .collect();
     Trajectory::new(nodes, intervals).unwrap()
@@ -47,13 +49,19 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
     let nodes = trajectory.nodes().iter().flat_map(|node| {
         let arrays = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
         let rest = [&node.angular_rate_rad_s[..], &node.joint_angles_rad, &node.joint_rates_rad_s];
+        let rest = rest.into_iter().chain([&node.wheel_momenta_n_m_s[..]]);
         let scalars = [node.time_s, node.power_w];
         arrays.into_iter().chain(rest).flatten().copied().chain(scalars).collect::<Vec<_>>()
     });
     let intervals = trajectory.intervals().iter().flat_map(|interval| {
-        let ControlInterval { joint_accelerations_rad_s2, joint_jerks_rad_s3, joint_torques_n_m } =
-            interval;
-        [&joint_accelerations_rad_s2[..], joint_jerks_rad_s3, joint_torques_n_m].concat()
+        let ControlInterval {
+            joint_accelerations_rad_s2,
+            joint_jerks_rad_s3,
+            joint_torques_n_m,
+            wheel_torques_n_m,
+        } = interval;
+        let of_joints = [&joint_accelerations_rad_s2[..], joint_jerks_rad_s3, joint_torques_n_m];
+        [&of_joints.concat()[..], wheel_torques_n_m].concat()
     });
     nodes.chain(intervals).map(f64::to_bits).collect()
 }
@@ -61,7 +69,7 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
 #[test]
 fn the_header_is_the_contract() {
     let mut text = Vec::new();
-    awkward(2, 1, false).print_csv(&mut text).unwrap();
+    awkward(2, 1, false, 0).print_csv(&mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
@@ -81,7 +89,7 @@ fn the_header_is_the_contract() {
 #[test]
 fn jerks_stand_after_all_other_columns() {
     let mut text = Vec::new();
-    awkward(2, 1, true).print_csv(&mut text).unwrap();
+    awkward(2, 1, true, 0).print_csv(&mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].ends_with(",tau2_n_m,power_w,j1_rad_s3,j2_rad_s3"), "{}", lines[0]);
@@ -93,12 +101,25 @@ fn jerks_stand_after_all_other_columns() {
 }
 
 #[test]
+fn wheels_stand_last() {
+    let mut text = Vec::new();
+    awkward(1, 1, true, 2).print_csv(&mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let expected = ",power_w,j1_rad_s3,hw1_n_m_s,hw2_n_m_s,tauw1_n_m,tauw2_n_m";
+    assert!(lines[0].ends_with(expected), "{}", lines[0]);
+    assert!(lines[1].split(',').all(|cell| cell.parse::<f64>().is_ok()));
+    assert!(lines[2].ends_with(",,"), "{}", lines[2]);
+    assert!(refusal(&text.replace(",tauw2_n_m", "")).contains("2 for each wheel and power_w"));
+}
+
+#[test]
 fn a_table_is_read_back_bit_for_bit() {
     let folder = tempfile::tempdir().unwrap();
     for (joints, steps) in [(1, 1), (2, 7), (7, 600)] {
-        for with_jerks in [false, true] {
+        for (with_jerks, wheels) in [(false, 0), (true, 0), (false, 3), (true, 4)] {
             let file = folder.path().join("trajectory.csv");
-            let trajectory = awkward(joints, steps, with_jerks);
+            let trajectory = awkward(joints, steps, with_jerks, wheels);
             trajectory.write_csv(&file).unwrap();
             let read = Trajectory::read_csv(&file).unwrap();
             assert_eq!(bits(&read), bits(&trajectory));
@@ -119,7 +140,7 @@ fn refusal(text: &str) -> String {
 #[test]
 fn damaged_tables_are_refused_with_the_place() {
     let mut good = Vec::new();
-    awkward(1, 2, false).print_csv(&mut good).unwrap();
+    awkward(1, 2, false, 0).print_csv(&mut good).unwrap();
     let good = String::from_utf8(good).unwrap();
     let rows: Vec<&str> = good.lines().collect();
 
@@ -150,6 +171,6 @@ fn files_that_cannot_be_opened_or_written_are_named() {
     assert!(matches!(Trajectory::read_csv(&missing), Err(Error::Read { .. })));
     assert!(matches!(Trajectory::read_csv(folder.path()), Err(Error::Directory { .. })));
     let nowhere = Path::new("no-such-folder/trajectory.csv");
-    let message = awkward(1, 1, false).write_csv(nowhere).unwrap_err().to_string();
+    let message = awkward(1, 1, false, 0).write_csv(nowhere).unwrap_err().to_string();
     assert_eq!(message, "no-such-folder/trajectory.csv: cannot be written: no such file");
 }

@@ -17,6 +17,7 @@ mod solver;
 mod system;
 mod system_options;
 mod waypoint;
+mod wheel;
 mod whole_number;
 
 use schemars::JsonSchema;
@@ -39,6 +40,7 @@ pub use solver::{
 pub use system::{Base, Mount, Payload, System};
 pub use system_options::SystemOptions;
 pub use waypoint::Waypoint;
+pub use wheel::Wheel;
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -68,6 +70,10 @@ pub struct Scenario {
     /// How the end is met.
     #[serde(rename = "final", default, skip_serializing_if = "Option::is_none")]
     pub end: Option<End>,
+    /// Reaction wheels that turn the base beside the arm.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 16))]
+    pub wheels: Vec<Wheel>,
     /// What acts from outside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
@@ -123,6 +129,10 @@ pub struct End {
     /// whatever `hard` and the weights say. All are free by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_angles_deg: Option<Vec<Option<f64>>>,
+    /// The momentum that each wheel stores in the end, N m s; null where it is free. The given ones are met exactly.
+    /// All are free by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wheel_momenta_n_m_s: Option<Vec<Option<f64>>>,
 }
 
 /// Weights of the objective, in SI units and radians. `control` multiplies the integral over time of the
@@ -165,6 +175,14 @@ pub struct Weights {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub joint_rate: Option<f64>,
+    /// Torques of the wheels: ∫‖τ‖² dt / 0.05 s; 0.01 by default where there are wheels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub wheel_torque: Option<f64>,
+    /// Momenta of the wheels at the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub wheel_momentum: Option<f64>,
 }
 
 /// Clearances.

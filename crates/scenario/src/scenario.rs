@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use nalgebra::Vector3;
 use righting_multibody::{External, Quaternion};
 use righting_scalar::Scalar;
 use sha2::{Digest, Sha256};
@@ -22,6 +23,7 @@ use crate::start_loads;
 use crate::system_description::SystemDescription;
 use crate::system_reference::resolve_system;
 use crate::waypoints::{Waypoint, check_company, end_in_last, waypoints};
+use crate::wheels::{Wheel, end_momenta, reaction, stored};
 
 pub use crate::horizon::{FreeDuration, Horizon, LONGEST_S, MAX_STEPS};
 pub use crate::maneuver::{Maneuver, Slew};
@@ -45,6 +47,8 @@ pub struct Scenario {
     pub(crate) weights: Weights,
     pub(crate) is_end_hard: bool,
     pub(crate) end_angles_rad: Vec<Option<f64>>,
+    pub(crate) end_wheel_momenta_n_m_s: Vec<Option<f64>>,
+    pub(crate) wheels: Vec<Wheel>,
     pub(crate) environment: Option<Environment>,
     pub(crate) pointing: Vec<Pointing>,
     pub(crate) collision: CollisionModel,
@@ -115,7 +119,9 @@ impl Scenario {
             }
             None => None,
         };
-        if environment.is_none() || maneuver == Maneuver::Detumble {
+        let wheels = Wheel::all_from_file(&scenario.wheels, &place.key("wheels"))?;
+        let wheels_turn = wheels.iter().any(|wheel| !wheel.failed);
+        if environment.is_none() && !wheels_turn || maneuver == Maneuver::Detumble {
             let momentum_note =
                 check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
             notes.extend(momentum_note);
@@ -142,7 +148,7 @@ impl Scenario {
         let weights = Weights::from_file(
             &scenario.weights,
             &maneuver,
-            free_duration.is_some(),
+            (free_duration.is_some(), !wheels.is_empty()),
             &place.key("weights"),
         )?;
         let is_end_hard = match scenario.end.as_ref().and_then(|end| end.hard) {
@@ -150,6 +156,11 @@ impl Scenario {
             None => !solver.is_paper() && !scenario.weights.has_end(),
         };
         let end_angles_deg = scenario.end.as_mut().and_then(|end| end.joint_angles_deg.take());
+        let end_momenta_place = place.key("final").key("wheel_momenta_n_m_s");
+        let end_momenta_n_m_s =
+            scenario.end.as_mut().and_then(|end| end.wheel_momenta_n_m_s.take());
+        let end_wheel_momenta_n_m_s =
+            end_momenta(end_momenta_n_m_s.as_deref(), &wheels, &end_momenta_place)?;
         let end_place = place.key("final").key("joint_angles_deg");
         let end_angles_rad = end_angles(end_angles_deg.as_deref(), &system, &end_place)?;
         let clearance_place = place.key("collision").key("clearance_m");
@@ -179,8 +190,12 @@ impl Scenario {
                 angular_rate_deg_s: Some(scenario.initial.angular_rate_deg_s.unwrap_or_default()),
                 attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
             },
-            weights: weights.to_file(free_duration.is_some()),
-            end: Some(file::End { hard: Some(is_end_hard), joint_angles_deg: end_angles_deg }),
+            weights: weights.to_file(free_duration.is_some(), !wheels.is_empty()),
+            end: Some(file::End {
+                hard: Some(is_end_hard),
+                joint_angles_deg: end_angles_deg,
+                wheel_momenta_n_m_s: end_momenta_n_m_s,
+            }),
             collision: file::Collision { clearance_m: Some(collision.clearance_m) },
             solver: solver.to_file(),
             ..scenario
@@ -195,6 +210,8 @@ impl Scenario {
             weights,
             is_end_hard,
             end_angles_rad,
+            end_wheel_momenta_n_m_s,
+            wheels,
             environment,
             pointing,
             collision,
@@ -280,6 +297,16 @@ impl Scenario {
         &self.end_angles_rad
     }
 
+    /// The momenta that the wheels store in the end, one a wheel, N m s; none where a wheel's is free.
+    pub fn end_wheel_momenta_n_m_s(&self) -> &[Option<f64>] {
+        &self.end_wheel_momenta_n_m_s
+    }
+
+    /// The reaction wheels, failed ones among them.
+    pub fn wheels(&self) -> &[Wheel] {
+        &self.wheels
+    }
+
     /// What acts from outside; none where the file gives nothing, and angular momentum is conserved.
     pub fn environment(&self) -> Option<&Environment> {
         self.environment.as_ref()
@@ -288,13 +315,34 @@ impl Scenario {
     /// Whether the base may drift at the end of a slew as its angular momentum has it: what comes from outside is
     /// nothing that a plan could take away. The rate that shall be zero is then the one beyond that drift.
     pub fn may_drift(&self) -> bool {
-        self.environment.is_some() && self.maneuver != Maneuver::Detumble
+        let wheels_hold = self.wheels.iter().any(|wheel| !wheel.failed);
+        self.environment.is_some() && self.maneuver != Maneuver::Detumble && !wheels_hold
     }
 
-    /// What acts on the system in an attitude (body → inertial) at a time since the start, if anything does.
-    pub fn external<T: Scalar>(&self, attitude: &Quaternion<T>, time: T) -> Option<External<T>> {
+    /// What acts on the system in an attitude (body → inertial) at a time since the start, if anything does: its
+    /// surroundings, and the wheels where the base turns at `angular_rate` (body axes) while they have such momenta and
+    /// torques (one value a wheel).
+    pub fn external<T: Scalar>(
+        &self,
+        attitude: &Quaternion<T>,
+        angular_rate: &Vector3<T>,
+        time: T,
+        (momenta, torques): (&[T], &[T]),
+    ) -> Option<External<T>> {
         let environment = self.environment.as_ref().filter(|environment| environment.acts());
-        environment.map(|environment| environment.external(attitude, time))
+        let surrounding = environment.map(|environment| environment.external(attitude, time));
+        if self.wheels.is_empty() {
+            return surrounding;
+        }
+        let [in_store, given] = [momenta, torques].map(|values| stored(&self.wheels, values));
+        let reaction = reaction(angular_rate, &in_store, &given);
+        Some(match surrounding {
+            None => External { torque: reaction, gravity_gradient: None },
+            Some(external) => External {
+                torque: Vector3::from_fn(|i, _| external.torque[i] + reaction[i]),
+                ..external
+            },
+        })
     }
 
     /// The cones that instruments keep out of, or stay in.

@@ -30,6 +30,12 @@ impl Scenario {
             free_duration: self.free_duration.map(|free| free.in_units(units)),
             weights: self.weights.in_units(units, objective_unit),
             collision: self.collision.in_units(units),
+            wheels: self.wheels.iter().map(|wheel| wheel.in_units(units)).collect(),
+            end_wheel_momenta_n_m_s: self
+                .end_wheel_momenta_n_m_s
+                .iter()
+                .map(|end| end.map(|momentum| momentum / (units.torque_n_m() * units.time_s)))
+                .collect(),
             environment: self.environment.as_ref().map(|acts| acts.in_units(units)),
             pointing: self.pointing.iter().map(|cone| cone.in_units(units)).collect(),
             ..self.clone()
@@ -134,6 +140,8 @@ impl Weights {
             angular_rate: of(self.angular_rate, 1.0 / time_s),
             joint_angle: of(self.joint_angle, 1.0),
             joint_rate: of(self.joint_rate, 1.0 / time_s),
+            wheel_torque: of(self.wheel_torque, units.torque_n_m()) * time_s,
+            wheel_momentum: of(self.wheel_momentum, units.torque_n_m() * time_s),
         }
     }
 }

@@ -36,6 +36,10 @@ pub struct Weights {
     pub joint_angle: f64,
     /// Joint rates.
     pub joint_rate: f64,
+    /// Torques of the wheels, as `control`.
+    pub wheel_torque: f64,
+    /// Momenta of the wheels.
+    pub wheel_momentum: f64,
 }
 
 impl file::Weights {
@@ -50,6 +54,8 @@ impl file::Weights {
             angular_rate,
             joint_angle,
             joint_rate,
+            wheel_torque: _,
+            wheel_momentum: _,
         } = self;
         [position, attitude, velocity, angular_rate, joint_angle, joint_rate]
             .iter()
@@ -62,9 +68,18 @@ impl Weights {
     pub(crate) fn from_file(
         weights: &file::Weights,
         maneuver: &Maneuver,
-        is_duration_free: bool,
+        (is_duration_free, has_wheels): (bool, bool),
         place: &Location,
     ) -> Result<Weights, Error> {
+        for (name, given) in
+            [("wheel_torque", weights.wheel_torque), ("wheel_momentum", weights.wheel_momentum)]
+        {
+            if let (Some(given), false) = (given, has_wheels) {
+                return Err(place
+                    .key(name)
+                    .refuse(Number(given), "none where there are no wheels"));
+            }
+        }
         if let (Some(time), false) = (weights.time, is_duration_free) {
             let allowed = "none where the duration is given: horizon.duration_s {\"min\", \"max\"}";
             return Err(place.key("time").refuse(Number(time), allowed));
@@ -83,6 +98,12 @@ impl Weights {
             angular_rate: weight("angular_rate", weights.angular_rate, defaults.angular_rate)?,
             joint_angle: weight("joint_angle", weights.joint_angle, defaults.joint_angle)?,
             joint_rate: weight("joint_rate", weights.joint_rate, defaults.joint_rate)?,
+            wheel_torque: weight("wheel_torque", weights.wheel_torque, defaults.wheel_torque)?,
+            wheel_momentum: weight(
+                "wheel_momentum",
+                weights.wheel_momentum,
+                defaults.wheel_momentum,
+            )?,
         })
     }
 
@@ -90,6 +111,12 @@ impl Weights {
     /// accelerations by.
     pub fn control_per_step(&self, horizon: Horizon) -> f64 {
         self.control * (horizon.step_s() / REFERENCE_INTERVAL_S)
+    }
+
+    /// What the weight of the wheels' torques multiplies the sum of their squares by, as
+    /// [`control_per_step`](Self::control_per_step).
+    pub fn wheel_torque_per_step(&self, horizon: Horizon) -> f64 {
+        self.wheel_torque * (horizon.step_s() / REFERENCE_INTERVAL_S)
     }
 
     /// The weights of a scenario that gives none.
@@ -103,6 +130,8 @@ impl Weights {
             angular_rate: 100.0,
             joint_angle: 0.0,
             joint_rate: 0.0,
+            wheel_torque: 0.01,
+            wheel_momentum: 0.0,
         };
         match maneuver {
             Maneuver::Slew(_) => Self { attitude: 1000.0, joint_rate: 100.0, ..none },
@@ -110,7 +139,7 @@ impl Weights {
         }
     }
 
-    pub(crate) fn to_file(self, is_duration_free: bool) -> file::Weights {
+    pub(crate) fn to_file(self, is_duration_free: bool, has_wheels: bool) -> file::Weights {
         file::Weights {
             control: Some(self.control),
             time: is_duration_free.then_some(self.time),
@@ -120,6 +149,8 @@ impl Weights {
             angular_rate: Some(self.angular_rate),
             joint_angle: Some(self.joint_angle),
             joint_rate: Some(self.joint_rate),
+            wheel_torque: has_wheels.then_some(self.wheel_torque),
+            wheel_momentum: has_wheels.then_some(self.wheel_momentum),
         }
     }
 }

@@ -3,11 +3,14 @@
 use std::path::Path;
 
 use nalgebra::Vector3;
+use righting_multibody::Units;
+use righting_scalar::Scalar;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::json::{Bounds, Document, FileKind, Location};
+use crate::file;
+use crate::json::{Bounds, Document, FileKind, Location, Number};
 
 /// The most wheels an array may have.
 pub const MAX_WHEELS: usize = 16;
@@ -29,6 +32,112 @@ pub struct Wheel {
     pub torque_max_n_m: f64,
     /// Power it takes while it spins steadily, W.
     pub steady_power_w: f64,
+    /// Momentum it stores at the start about its axis, relative to the base, N m s.
+    pub initial_momentum_n_m_s: f64,
+    /// Whether it gives no torque.
+    pub failed: bool,
+}
+
+impl Wheel {
+    /// Checks a wheel that was read from `place`.
+    fn from_file(row: &file::Wheel, place: &Location) -> Result<Self, Error> {
+        let axis_place = place.key("axis");
+        axis_place.all_within(row.axis, AXIS)?;
+        let axis = Vector3::from(row.axis).try_normalize(1e-9);
+        let axis =
+            axis.ok_or_else(|| axis_place.refuse("[0, 0, 0]", "a vector that is not zero"))?;
+        let limit = |name: &str, value| place.key(name).within(value, LIMIT);
+        let most = limit("momentum_max_n_m_s", row.momentum_max_n_m_s)?;
+        let stored = row.initial_momentum_n_m_s.unwrap_or(0.0);
+        let stored_place = place.key("initial_momentum_n_m_s");
+        Ok(Self {
+            axis: axis.into(),
+            momentum_max_n_m_s: most,
+            torque_max_n_m: limit("torque_max_n_m", row.torque_max_n_m)?,
+            steady_power_w: match row.steady_power_w {
+                Some(power_w) => place.key("steady_power_w").within(power_w, POWER)?,
+                None => STEADY_POWER_W,
+            },
+            initial_momentum_n_m_s: stored_place.within(stored, Bounds::Between(-most, most))?,
+            failed: row.failed,
+        })
+    }
+
+    /// Checks wheels that were read from `place`.
+    pub(crate) fn all_from_file(
+        rows: &[file::Wheel],
+        place: &Location,
+    ) -> Result<Vec<Self>, Error> {
+        if rows.len() > MAX_WHEELS {
+            let allowed = format!("an array of at most {MAX_WHEELS} wheels");
+            return Err(place.refuse(format!("{} wheels", rows.len()), allowed));
+        }
+        let rows = rows.iter().enumerate();
+        rows.map(|(index, row)| Self::from_file(row, &place.index(index))).collect()
+    }
+
+    pub(crate) fn in_units(&self, units: &Units) -> Self {
+        let momentum = units.torque_n_m() * units.time_s;
+        Self {
+            momentum_max_n_m_s: self.momentum_max_n_m_s / momentum,
+            torque_max_n_m: self.torque_max_n_m / units.torque_n_m(),
+            initial_momentum_n_m_s: self.initial_momentum_n_m_s / momentum,
+            ..*self
+        }
+    }
+}
+
+/// What wheels do to a base that turns at ω, as a couple on it, body axes, N m: −(τ + ω × h), with the momentum h that
+/// is in store and the torque τ that is given, its rate.
+pub fn reaction<T: Scalar>(
+    angular_rate: &Vector3<T>,
+    in_store: &Vector3<T>,
+    given: &Vector3<T>,
+) -> Vector3<T> {
+    let (w, h) = (angular_rate, in_store);
+    Vector3::new(
+        w.z * h.y - w.y * h.z - given.x,
+        w.x * h.z - w.z * h.x - given.y,
+        w.y * h.x - w.x * h.y - given.z,
+    )
+}
+
+/// The sum of the wheels' momenta (N m s), or torques (N m), as a vector in body axes; one value a wheel.
+pub fn stored<T: Scalar>(wheels: &[Wheel], momenta: &[T]) -> Vector3<T> {
+    let zero = Vector3::from_element(T::from(0.0));
+    wheels.iter().zip(momenta).fold(zero, |sum, (wheel, &momentum)| {
+        Vector3::from_fn(|i, _| sum[i] + momentum * wheel.axis[i])
+    })
+}
+
+/// Checks the momenta of the wheels at an end that was read from `place`; none where a wheel's is free.
+pub(crate) fn end_momenta(
+    momenta: Option<&[Option<f64>]>,
+    wheels: &[Wheel],
+    place: &Location,
+) -> Result<Vec<Option<f64>>, Error> {
+    let Some(momenta) = momenta else { return Ok(vec![None; wheels.len()]) };
+    if momenta.len() != wheels.len() {
+        let allowed = format!("an array of {}, one a wheel", wheels.len());
+        return Err(place.refuse(format!("an array of {}", momenta.len()), allowed));
+    }
+    let given = momenta.iter().zip(wheels).enumerate();
+    given
+        .map(|(index, (momentum, wheel))| {
+            let Some(momentum) = *momentum else { return Ok(None) };
+            let place = place.index(index);
+            let most = wheel.momentum_max_n_m_s;
+            place.within(momentum, Bounds::Between(-most, most))?;
+            if wheel.failed && momentum != wheel.initial_momentum_n_m_s {
+                let kept = Number(wheel.initial_momentum_n_m_s);
+                return Err(place.refuse(
+                    Number(momentum),
+                    format_args!("{kept}, or null: the wheel has failed and keeps its momentum"),
+                ));
+            }
+            Ok(Some(momentum))
+        })
+        .collect()
 }
 
 /// Wheels about any axes.
@@ -44,26 +153,7 @@ pub struct WheelArray {
 pub(crate) struct WheelFile {
     /// The wheels, in any order.
     #[schemars(length(min = 1, max = 16))]
-    wheels: Vec<WheelRow>,
-}
-
-/// A reaction wheel.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a wheel")]
-#[schemars(rename = "Wheel")]
-struct WheelRow {
-    /// Its axis in body axes, of any length but zero.
-    axis: [f64; 3],
-    /// The most momentum it stores either way, N m s.
-    #[schemars(range(max = 1e6), extend("exclusiveMinimum" = 0))]
-    momentum_max_n_m_s: f64,
-    /// The most torque it gives either way, N m.
-    #[schemars(range(max = 1e6), extend("exclusiveMinimum" = 0))]
-    torque_max_n_m: f64,
-    /// Power it takes while it spins steadily, W; 5 by default.
-    #[serde(default)]
-    #[schemars(range(min = 0, max = 1e6))]
-    steady_power_w: Option<f64>,
+    wheels: Vec<file::Wheel>,
 }
 
 impl WheelArray {
@@ -75,6 +165,8 @@ impl WheelArray {
             momentum_max_n_m_s: 1.0,
             torque_max_n_m: 0.1,
             steady_power_w: STEADY_POWER_W,
+            initial_momentum_n_m_s: 0.0,
+            failed: false,
         };
         Self {
             wheels: vec![wheel(1.0, 1.0), wheel(-1.0, 1.0), wheel(-1.0, -1.0), wheel(1.0, -1.0)],
@@ -104,26 +196,7 @@ impl WheelArray {
             let allowed = format!("an array of 1 to {MAX_WHEELS} wheels");
             return Err(place.refuse(format!("{} wheels", rows.wheels.len()), allowed));
         }
-        let wheel = |(index, row): (usize, &WheelRow)| {
-            let place = place.index(index);
-            let axis_place = place.key("axis");
-            axis_place.all_within(row.axis, AXIS)?;
-            let axis = Vector3::from(row.axis).try_normalize(1e-9);
-            let axis =
-                axis.ok_or_else(|| axis_place.refuse("[0, 0, 0]", "a vector that is not zero"))?;
-            let limit = |name: &str, value| place.key(name).within(value, LIMIT);
-            Ok(Wheel {
-                axis: axis.into(),
-                momentum_max_n_m_s: limit("momentum_max_n_m_s", row.momentum_max_n_m_s)?,
-                torque_max_n_m: limit("torque_max_n_m", row.torque_max_n_m)?,
-                steady_power_w: match row.steady_power_w {
-                    Some(power_w) => place.key("steady_power_w").within(power_w, POWER)?,
-                    None => STEADY_POWER_W,
-                },
-            })
-        };
-        let wheels: Result<_, Error> = rows.wheels.iter().enumerate().map(wheel).collect();
-        Ok(Self { wheels: wheels? })
+        Ok(Self { wheels: Wheel::all_from_file(&rows.wheels, &place)? })
     }
 
     /// The wheels of a file, or [the pyramid](Self::pyramid) where none is named.

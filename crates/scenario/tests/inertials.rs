@@ -47,6 +47,7 @@ fn checked(mut system: file::System) -> Result<Scenario, Error> {
         horizon: file::Horizon { duration_s: file::Duration::Given(60.0), steps: 60.0 },
         weights: file::Weights::default(),
         end: None,
+        wheels: Vec::new(),
         environment: None,
         pointing: Vec::new(),
         collision: file::Collision { clearance_m: Some(0.0) },

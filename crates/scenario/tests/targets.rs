@@ -118,7 +118,11 @@ fn a_target_that_is_no_attitude_or_one_too_many_is_refused() {
 /// The 4-joint slew with a posture at the end.
 fn ending_at(angles_deg: &[Option<f64>]) -> Result<Scenario, Error> {
     varied("slew_4dof", |file| {
-        file.end = Some(file::End { hard: None, joint_angles_deg: Some(angles_deg.to_vec()) });
+        file.end = Some(file::End {
+            hard: None,
+            joint_angles_deg: Some(angles_deg.to_vec()),
+            ..file::End::default()
+        });
     })
 }
 
@@ -159,7 +163,11 @@ fn an_end_that_the_arm_cannot_have_is_refused() {
             system.links[3].angle_min_deg = Some(0.0);
             system.links[3].angle_max_deg = Some(0.0);
             let angles = vec![None, None, None, Some(angle_deg)];
-            file.end = Some(file::End { hard: None, joint_angles_deg: Some(angles) });
+            file.end = Some(file::End {
+                hard: None,
+                joint_angles_deg: Some(angles),
+                ..file::End::default()
+            });
         })
     };
     locked(0.0).unwrap();
@@ -204,6 +212,7 @@ fn the_schema_takes_one_target_of_each_kind() {
         file.end = Some(file::End {
             hard: None,
             joint_angles_deg: Some(vec![None, Some(1.0), None, None]),
+            ..file::End::default()
         });
     };
     assert_eq!(violation(&schema, &file(&posture)), None);

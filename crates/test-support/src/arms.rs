@@ -147,6 +147,7 @@ pub(crate) fn at_rest(system: file::System) -> Scenario {
         horizon: file::Horizon { duration_s: file::Duration::Given(10.0), steps: 10.0 },
         weights: file::Weights::default(),
         end: None,
+        wheels: Vec::new(),
         environment: None,
         pointing: Vec::new(),
         collision: file::Collision { clearance_m: Some(0.0) },

@@ -172,12 +172,14 @@ pub fn trajectory_of(
         joint_angles_rad: state.joint_angles.clone(),
         joint_rates_rad_s: state.joint_rates.clone(),
         power_w: torques(k, state).iter().zip(&state.joint_rates).map(|(t, rate)| t * rate).sum(),
+        wheel_momenta_n_m_s: Vec::new(),
     });
     let steps = controls.iter().zip(states).take(states.len() - 1);
     let intervals = steps.enumerate().map(|(k, (control, state))| ControlInterval {
         joint_accelerations_rad_s2: control.clone(),
         joint_jerks_rad_s3: Vec::new(),
         joint_torques_n_m: torques(k, state),
+        wheel_torques_n_m: Vec::new(),
     });
     Trajectory::new(nodes.collect(), intervals.collect()).unwrap()
 }

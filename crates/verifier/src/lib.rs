@@ -45,11 +45,13 @@
 //!     joint_angles_rad: vec![0.0; 2],
 //!     joint_rates_rad_s: vec![0.0; 2],
 //!     power_w: 0.0,
+//!     wheel_momenta_n_m_s: Vec::new(),
 //! };
 //! let idle = ControlInterval {
 //!     joint_accelerations_rad_s2: vec![0.0; 2],
 //!     joint_jerks_rad_s3: Vec::new(),
 //!     joint_torques_n_m: vec![0.0; 2],
+//!     wheel_torques_n_m: Vec::new(),
 //! };
 //! let trajectory = Trajectory::new((0..=steps).map(node).collect(), vec![idle; steps])?;
 //! let verification = verify(&scenario, &trajectory);
@@ -82,6 +84,7 @@ mod simulation;
 mod tolerances;
 mod verify;
 mod waypoints;
+mod wheels;
 
 pub use directory::{Verified, verify_directory};
 pub use dormand_prince::DormandPrince;

@@ -7,11 +7,10 @@
 use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
-use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Subject, Worst};
 use crate::model::State;
 use crate::requirements::Requirements;
-use crate::simulation::{Follower, Simulation, Span};
+use crate::simulation::{Follower, Simulation};
 
 /// Equal parts of a step at whose ends loads are looked at.
 const PARTS: usize = 5;
@@ -109,22 +108,23 @@ pub(super) fn check(
     let mut follower = Follower::new(model, &asked.surroundings);
     let mut torques = vec![0.0; model.joint_count()];
     for (k, (interval, node)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate() {
-        let accelerations = Accelerations::of(interval);
+        let span = simulation.span(asked, k, interval);
+        let accelerations = span.accelerations;
         let start_s = asked.horizon.time_s(k);
         let part_s = (asked.horizon.time_s(k + 1) - start_s) / PARTS as f64;
         let mut x = node.to_vec();
         for part in 0..=PARTS {
             if part > 0 {
                 let before_s = (part - 1) as f64 * part_s;
-                follower.advance(&mut x, Span { start_s, accelerations }, before_s, part_s);
+                follower.advance(&mut x, span, before_s, part_s);
             }
             let state = State::from_slice(&x);
             let Follower { motion, control, .. } = &mut follower;
-            accelerations.write(part as f64 * part_s, control);
-            let time_s = start_s + part as f64 * part_s;
-            let outside = asked.surroundings.at(&state.attitude, time_s);
+            let after_s = part as f64 * part_s;
+            accelerations.write(after_s, control);
+            let outside = span.outside(&asked.surroundings, &state, after_s);
             let mount = model.joint_torques(&state, control, &outside, motion, &mut torques);
-            let time_s = Some(time_s);
+            let time_s = Some(start_s + after_s);
             let of_joints = worst.torques.iter_mut().zip(&limits.torques_n_m).zip(&torques);
             for (joint, ((worst, limit), torque)) in of_joints.enumerate() {
                 if let (Some(worst), Some(limit)) = (worst, limit) {

@@ -22,7 +22,13 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
         motion.set(model, state, &BaseAcceleration::default(), &coasting);
         (motion.angular_momentum(), motion.center_of_mass())
     };
-    let (first_momentum, first_center) = momentum_and_center(&State::from_slice(&asked.start));
+    let of_wheels = |state: &State<'_>, in_store: &Vector3<f64>| {
+        UnitQuaternion::from_quaternion(state.attitude) * in_store
+    };
+    let first = State::from_slice(&asked.start);
+    let (mut first_momentum, first_center) = momentum_and_center(&first);
+    let in_store = asked.wheels.at_start();
+    first_momentum += of_wheels(&first, &in_store);
     let mut drift = Worst::new("angular momentum drift", "", 0.0);
     let mut wander = Worst::new("center of mass drift", "m", 0.0);
     let mut scale = first_momentum.norm();
@@ -31,6 +37,7 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
     for (node, came) in trajectory.nodes().iter().zip(came) {
         let state = State::of_node(node);
         let (momentum, center) = momentum_and_center(&state);
+        let momentum = momentum + of_wheels(&state, &asked.wheels.sum(&node.wheel_momenta_n_m_s));
         changes.push((momentum - first_momentum - came).norm());
         let distance_m = (center - first_center).norm();
         wander.at_most(distance_m, asked.tolerances.position_m, None, Some(node.time_s));

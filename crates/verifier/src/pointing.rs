@@ -10,7 +10,6 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use righting_results::trajectory::Trajectory;
 use righting_scenario::file;
 
-use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Worst};
 use crate::model::State;
 use crate::requirements::Requirements;
@@ -150,7 +149,7 @@ pub(super) fn check(
         for (k, (interval, ends)) in trajectory.intervals().iter().zip(states).enumerate() {
             let start_s = asked.horizon.time_s(k);
             let duration_s = asked.horizon.time_s(k + 1) - start_s;
-            let span = Span { start_s, accelerations: Accelerations::of(interval) };
+            let span = simulation.span(asked, k, interval);
             cone.look_within(ends, (span, duration_s), &mut follower, &mut between);
         }
         ledger.add_of(at_nodes, &cone.name);

@@ -14,12 +14,14 @@ use crate::pointing::Cone;
 use crate::posture::EndPosture;
 use crate::tolerances::{Measures, Tolerances};
 use crate::waypoints::{Waypoint, waypoints};
+use crate::wheels::Wheels;
 
 /// Everything that a plan is measured by.
 #[derive(Debug)]
 pub(super) struct Requirements {
     pub model: Model,
     pub surroundings: Surroundings,
+    pub wheels: Wheels,
     /// Whether a slew may end with the drift that angular momentum leaves.
     pub may_drift: bool,
     pub horizon: Horizon,
@@ -59,6 +61,7 @@ impl Requirements {
         let system = scenario.resolved_system();
         let model = Model::new(system);
         let start = start(&model, &file.initial);
+        let wheels = Wheels::new(file);
         let clearance_m = file.collision.clearance_m.unwrap_or(0.0);
         let clearances = Clearances::new(system, &model, clearance_m);
         let duration_s = scenario.horizon().duration_s;
@@ -80,7 +83,8 @@ impl Requirements {
             end_posture: EndPosture::new(file.end.as_ref()),
             horizon: scenario.horizon(),
             surroundings: Surroundings::new(file.environment.as_ref()),
-            may_drift: file.environment.is_some(),
+            may_drift: file.environment.is_some() && !wheels.work(),
+            wheels,
             joint_limits: system.joints().iter().map(JointLimits::new).collect(),
             load_limits: LoadLimits::new(system),
             cones: file.pointing.iter().map(Cone::new).collect(),

@@ -18,6 +18,7 @@ use crate::requirements::Requirements;
 use crate::simulation::Simulation;
 use crate::tolerances::{Measures, Tolerances, at_rest_deg_s};
 use crate::waypoints;
+use crate::wheels;
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;
@@ -46,7 +47,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     }
     check_start(&asked, trajectory, &mut ledger);
     let start = State::of_node(trajectory.start()).to_vec();
-    let bodies = (&asked.model, &asked.surroundings);
+    let bodies = (&asked.model, &asked.surroundings, &asked.wheels);
     let simulation = Simulation::new(bodies, asked.horizon, &start, trajectory.intervals());
     check_motion(&asked.tolerances, trajectory, &simulation, &mut ledger);
     momentum::check(&asked, trajectory, &mut ledger);
@@ -54,6 +55,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     limits::check(&asked, trajectory, &simulation, &mut ledger);
     jerk::check(&asked, trajectory, &mut ledger);
     loads::check(&asked, trajectory, &simulation, &mut ledger);
+    wheels::check(&asked, trajectory, &mut ledger);
     pointing::check(&asked, trajectory, &simulation, &mut ledger);
     waypoints::check(&asked, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
@@ -72,7 +74,7 @@ pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verificati
     if !shape_fits(&asked, plan, &mut ledger) {
         return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
     }
-    let bodies = (&asked.model, &asked.surroundings);
+    let bodies = (&asked.model, &asked.surroundings, &asked.wheels);
     let simulation = Simulation::new(bodies, asked.horizon, &asked.start, plan.intervals());
     waypoints::check(&asked, &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
@@ -85,6 +87,7 @@ fn shape_fits(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger
     let counts = [
         ("number of joints", trajectory.joints(), asked.model.joint_count()),
         ("number of steps", trajectory.steps(), steps),
+        ("number of wheels", trajectory.wheels(), asked.wheels.len()),
     ];
     for (name, found, needed) in counts {
         if found != needed {
@@ -169,7 +172,13 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
     {
         let control = trajectory.joint_accelerations_at(k);
         let state = State::of_node(node);
-        let outside = asked.surroundings.at(&state.attitude, node.time_s);
+        let interval = &trajectory.intervals()[k.min(trajectory.steps() - 1)];
+        let store = asked.wheels.store(node, interval);
+        let outside = asked.surroundings.at(&state.attitude, node.time_s).with_wheels(
+            &state,
+            &store.momentum,
+            &store.torque,
+        );
         model.joint_torques(&state, &control, &outside, &mut motion, torques);
     }
     let largest = |values: &mut dyn Iterator<Item = &f64>| {

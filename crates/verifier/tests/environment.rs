@@ -1,9 +1,9 @@
 //! What acts from outside, by the verifier's formulas and the planner's.
 
-use nalgebra::Quaternion;
+use nalgebra::{Quaternion, Vector3};
 use proptest::prelude::*;
 use righting_multibody as multibody;
-use righting_scenario::file::{Environment, GravityGradient, OrbitalElements};
+use righting_scenario::file::{Environment, GravityGradient, OrbitalElements, Wheel};
 use righting_scenario::{Maneuver, Scenario};
 use righting_test_support::arms::rotation;
 use righting_test_support::{motion, shipped, swing, varied};
@@ -37,6 +37,17 @@ fn environment() -> impl Strategy<Value = Environment> {
     )
 }
 
+fn wheel(axis: [f64; 3]) -> Wheel {
+    Wheel {
+        axis,
+        momentum_max_n_m_s: 1.0,
+        torque_max_n_m: 1.0,
+        steady_power_w: None,
+        initial_momentum_n_m_s: None,
+        failed: false,
+    }
+}
+
 fn in_environment(name: &str, environment: &Environment) -> Scenario {
     varied(&shipped(name), |file| file.environment = Some(environment.clone()))
 }
@@ -50,8 +61,17 @@ proptest! {
         attitude in rotation(),
         joints in prop::collection::vec(-1.5..1.5_f64, 12),
         time_s in 0.0..9000.0_f64,
+        wheels in prop::collection::vec((prop::array::uniform3(0.1..1.0_f64), -1.0..1.0_f64, -1.0..1.0_f64), 0..5),
     ) {
-        let scenario = in_environment("detumble_4dof", &environment);
+        let scenario = varied(&in_environment("detumble_4dof", &environment), |file| {
+            file.wheels = wheels.iter().map(|(axis, ..)| wheel(*axis)).collect();
+        });
+        let (momenta, given): (Vec<f64>, Vec<f64>) =
+            wheels.iter().map(|(_, momentum, torque)| (*momentum, *torque)).unzip();
+        let sum = |values: &[f64]| -> Vector3<f64> {
+            let axes = scenario.wheels().iter().map(|wheel| Vector3::from(wheel.axis));
+            axes.zip(values).map(|(axis, value)| axis * *value).sum()
+        };
         let theirs = &scenario.system().model;
         let ours = Model::new(scenario.resolved_system());
         let surroundings = Surroundings::new(scenario.resolved().environment.as_ref());
@@ -64,8 +84,9 @@ proptest! {
         };
         let (x, u) = (state.to_vec(), &joints[8..]);
         let outside = surroundings.at(&state.attitude, time_s);
+        let outside = outside.with_wheels(&state, &sum(&momenta), &sum(&given));
         let attitude = multibody::Quaternion::from_array(attitude);
-        let external = scenario.external(&attitude, time_s);
+        let external = scenario.external(&attitude, &state.angular_rate, time_s, (&momenta, &given));
         let mut room = Motion::new(&ours);
         let mut rate = vec![0.0; x.len()];
         ours.state_derivative(&x, u, &outside, &mut room, &mut rate);

@@ -6,7 +6,7 @@
 //! At nodes they differ from the plan's by the plan's own integration error.
 
 use nalgebra::{SMatrix, SVector};
-use righting_multibody::{Quaternion, State};
+use righting_multibody::State;
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
 use righting_verifier::DormandPrince;
@@ -43,7 +43,8 @@ impl StepTorques {
         });
         let of_powers = powers.lu();
         let mut coefficients = Vec::with_capacity(trajectory.steps());
-        for (nodes, interval) in trajectory.nodes().windows(2).zip(trajectory.intervals()) {
+        let intervals = trajectory.nodes().windows(2).zip(trajectory.intervals());
+        for (k, (nodes, interval)) in intervals.enumerate() {
             let half_s = (nodes[1].time_s - nodes[0].time_s) / 2.0;
             let control = |after_s| interval.joint_accelerations_after(after_s);
             let mut of_joints = vec![Points::zeros(); joints];
@@ -51,11 +52,11 @@ impl StepTorques {
                 if let Some(before) = i.checked_sub(1) {
                     let duration_s = (place - places[before]) * half_s;
                     let before_s = (places[before] + 1.0) * half_s;
-                    let start_s = nodes[0].time_s + before_s;
                     let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
-                        let attitude = Quaternion::from_array([x[3], x[4], x[5], x[6]]);
-                        let external = scenario.external(&attitude, start_s + after_s);
-                        let control = control(before_s + after_s);
+                        let after_s = before_s + after_s;
+                        let state = State::from_slice(x).expect("as long as its own state");
+                        let external = trajectory.external(scenario, (k, after_s), &state);
+                        let control = control(after_s);
                         let derivative = model.state_derivative(x, &control, external.as_ref());
                         rate.copy_from_slice(&derivative);
                     });
@@ -71,7 +72,7 @@ impl StepTorques {
                     &state.joint_angles,
                     &state.joint_rates,
                     &control(after_s),
-                    scenario.external(&state.attitude, nodes[0].time_s + after_s).as_ref(),
+                    trajectory.external(scenario, (k, after_s), &state).as_ref(),
                 );
                 of_joints
                     .iter_mut()

@@ -7,6 +7,7 @@ use righting_scenario::environment::Environment;
 use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;
+use righting_scenario::wheels::{Wheel, reaction, stored};
 
 use super::Cones;
 use super::loads::Moment;
@@ -15,10 +16,13 @@ use super::loads::Moment;
 ///
 /// ```text
 /// full     [r, q_BN, ṙ, ω, q, q̇]     13 + 2j
-/// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃), r and ṙ from the fixed CM
+/// reduced  [q_BN, q, q̇]               4 + 2j;  ω = Ĩ⁻¹ (Cᵀ h₀ − H̃ − Σ h a), r and ṙ from the fixed CM
 /// ```
 ///
 /// The control is q̈. Where a joint's jerk is limited, q̈ are j more states and the control is the jerk.
+///
+/// The momenta of the wheels that work follow, each of which changes by its torque: these are controls after those of
+/// the joints. Failed wheels keep what they have.
 ///
 /// Where something acts from outside, the reduced form's momentum h, in inertial axes, is three more states:
 /// ḣ is the moment from outside.
@@ -30,8 +34,13 @@ use super::loads::Moment;
 pub(crate) struct Coordinates {
     formulation: Formulation,
     system: Arc<System>,
-    /// h₀, inertial axes, N m s.
+    /// h₀, the wheels' included, inertial axes, N m s.
     momentum: Vector3<f64>,
+    all_wheels: Arc<[Wheel]>,
+    /// The wheels that work.
+    wheels: Arc<[Wheel]>,
+    /// What the wheels that have failed store, body axes, N m s.
+    bias: Vector3<f64>,
     /// What acts from outside, if anything does.
     environment: Option<Arc<Environment>>,
     /// Where the system's centre of mass rests, inertial axes, m.
@@ -50,11 +59,22 @@ impl Coordinates {
         let system = Arc::new(scenario.system().model.clone());
         let initial = scenario.initial();
         let attitude = initial.attitude;
-        let h_body = system.angular_momentum(
-            &initial.angular_rate_rad_s,
-            &initial.joint_angles_rad,
-            &initial.joint_rates_rad_s,
-        );
+        let all_wheels = scenario.wheels();
+        let (failed, working): (Vec<Wheel>, Vec<Wheel>) =
+            all_wheels.iter().partition(|wheel| wheel.failed);
+        let at_start = |wheels: &[Wheel]| -> Vector3<f64> {
+            let momenta: Vec<f64> =
+                wheels.iter().map(|wheel| wheel.initial_momentum_n_m_s).collect();
+            stored(wheels, &momenta)
+        };
+        let bias = at_start(&failed);
+        let h_body = bias
+            + at_start(&working)
+            + system.angular_momentum(
+                &initial.angular_rate_rad_s,
+                &initial.joint_angles_rad,
+                &initial.joint_rates_rad_s,
+            );
         let center = attitude.to_inertial(&system.center_of_mass(&initial.joint_angles_rad));
         let limits = scenario.system().joint_limits.iter();
         let locked = limits.map(righting_scenario::JointLimits::is_locked).collect();
@@ -62,6 +82,9 @@ impl Coordinates {
             formulation,
             momentum: attitude.to_inertial(&h_body),
             center,
+            all_wheels: all_wheels.into(),
+            wheels: working.into(),
+            bias,
             environment: scenario.environment().filter(|it| it.acts()).cloned().map(Arc::new),
             system,
             locked,
@@ -93,8 +116,77 @@ impl Coordinates {
     /// The angular momentum among the states: empty where it never changes, or follows from the others.
     pub(crate) fn momentum(&self) -> std::ops::Range<usize> {
         let is_state = self.environment.is_some() && self.formulation == Formulation::Reduced;
-        let first = self.joints_end();
+        let first = self.wheels().end;
         first..first + if is_state { 3 } else { 0 }
+    }
+
+    /// The momenta of the wheels that work among the states.
+    pub(crate) fn wheels(&self) -> std::ops::Range<usize> {
+        self.joints_end()..self.joints_end() + self.wheels.len()
+    }
+
+    /// The wheels that work.
+    pub(crate) fn working_wheels(&self) -> &[Wheel] {
+        &self.wheels
+    }
+
+    /// The momenta of all wheels in a state, failed ones among them.
+    pub(crate) fn wheel_momenta(&self, x: &[f64]) -> Vec<f64> {
+        self.of_all_wheels(&x[self.wheels()], |wheel| wheel.initial_momentum_n_m_s)
+    }
+
+    /// The torques of all wheels among the controls; failed ones have none.
+    pub(crate) fn all_wheel_torques(&self, u: &[f64]) -> Vec<f64> {
+        self.of_all_wheels(self.wheel_torques(u), |_| 0.0)
+    }
+
+    /// Takes off the torques of a step of length `step_s` from state `x` what the optimizers let pass the limits of
+    /// torque and momentum: as bounds of variables they are relaxed by 1e-8 of a maneuver's own measures, which may
+    /// be much of what a wheel has.
+    pub(crate) fn keep_wheels_within(&self, x: &[f64], u: &mut [f64], step_s: f64) {
+        let torques = u[self.first_wheel()..].iter_mut();
+        for ((torque, momentum), wheel) in torques.zip(&x[self.wheels()]).zip(self.wheels.iter()) {
+            let most = wheel.momentum_max_n_m_s;
+            let reached = (momentum + step_s * *torque).clamp(-most, most);
+            *torque =
+                ((reached - momentum) / step_s).clamp(-wheel.torque_max_n_m, wheel.torque_max_n_m);
+        }
+    }
+
+    /// Values of the wheels that work with those of failed ones in between.
+    fn of_all_wheels(&self, working: &[f64], failed: impl Fn(&Wheel) -> f64) -> Vec<f64> {
+        let mut working = working.iter();
+        let value = |wheel: &Wheel| match wheel.failed {
+            true => failed(wheel),
+            false => *working.next().expect("one a wheel that works"),
+        };
+        self.all_wheels.iter().map(value).collect()
+    }
+
+    /// What the wheels that have failed store, body axes.
+    pub(crate) fn failed_momentum(&self) -> Vector3<f64> {
+        self.bias
+    }
+
+    /// What all wheels store in a state, body axes.
+    pub(crate) fn wheel_momentum<T: Scalar>(&self, x: &[T]) -> Vector3<T> {
+        let working = stored(&self.wheels, &x[self.wheels()]);
+        Vector3::from_fn(|i, _| working[i] + self.bias[i])
+    }
+
+    /// Index of the first wheel's torque among the controls.
+    pub(crate) fn first_wheel(&self) -> usize {
+        self.joints()
+    }
+
+    /// Number of controls: of the joints, and then of the wheels that work.
+    pub(crate) fn control_dimension(&self) -> usize {
+        self.joints() + self.wheels.len()
+    }
+
+    /// The torques of the wheels that work among the controls.
+    pub(crate) fn wheel_torques<'u, T>(&self, u: &'u [T]) -> &'u [T] {
+        &u[self.first_wheel()..]
     }
 
     /// Where the states of the free-floating system end.
@@ -107,9 +199,10 @@ impl Coordinates {
         self.has_jerk
     }
 
-    /// The joint angles and rates among the states, and accelerations where they are.
-    pub(crate) fn joint_states(&self) -> std::ops::Range<usize> {
-        self.joint_angle(0)..self.joints_end()
+    /// What the controls alone move: joint angles and rates among the states, accelerations where they are, and the
+    /// momenta of wheels.
+    pub(crate) fn driven_states(&self) -> std::ops::Range<usize> {
+        self.joint_angle(0)..self.wheels().end
     }
 
     /// The time of a state since the start of the maneuver; zero where it is none of the states.
@@ -169,14 +262,14 @@ impl Coordinates {
         &x[self.motion_end()..self.joints_end()]
     }
 
-    /// Takes the joint angles and rates of one state over into another, and accelerations where they are.
-    pub(crate) fn copy_joints(&self, from: &[f64], to: &mut [f64]) {
-        let joints = self.joint_states();
-        to[joints.clone()].copy_from_slice(&from[joints]);
+    /// Takes what the controls alone move of one state over into another.
+    pub(crate) fn copy_driven(&self, from: &[f64], to: &mut [f64]) {
+        let driven = self.driven_states();
+        to[driven.clone()].copy_from_slice(&from[driven]);
     }
 
-    /// Moves the joints of a state on by a step with the controls `u`.
-    pub(crate) fn move_joints(&self, x: &mut [f64], u: &[f64], step_s: f64) {
+    /// Moves the joints and wheels of a state on by a step with the controls `u`.
+    pub(crate) fn move_driven(&self, x: &mut [f64], u: &[f64], step_s: f64) {
         let (accelerations, jerks) = (self.accelerations(x, u), self.jerks(u));
         for (joint, (&u, &jerk)) in accelerations.iter().zip(&jerks).enumerate() {
             let (angle, rate) = (self.joint_angle(joint), self.joint_rate(joint));
@@ -187,6 +280,8 @@ impl Coordinates {
                 x[acceleration] += step_s * jerk;
             }
         }
+        let momenta = x[self.wheels()].iter_mut().zip(self.wheel_torques(u));
+        momenta.for_each(|(momentum, torque)| *momentum += step_s * torque);
     }
 
     /// The controls of steps of length `step` that stop a joint, as multiples of its rate: one acceleration, or a
@@ -228,7 +323,7 @@ impl Coordinates {
     }
 
     /// The state at a time in these coordinates, of a motion of the longest duration; joint accelerations that
-    /// are states are zero.
+    /// are states are zero, and wheels have what they have at the start.
     pub(crate) fn of_free_floating_state(&self, state: &State<f64>, time: f64) -> Vec<f64> {
         let mut x = match self.formulation {
             Formulation::Full => state.to_vec(),
@@ -238,8 +333,10 @@ impl Coordinates {
             }
         };
         x.resize(self.joints_end(), 0.0);
+        x.extend(self.wheels.iter().map(|wheel| wheel.initial_momentum_n_m_s));
         if !self.momentum().is_empty() {
-            let momentum = self.system.inertial_angular_momentum(state);
+            let of_wheels = state.attitude.to_inertial(&self.wheel_momentum(&x));
+            let momentum = self.system.inertial_angular_momentum(state) + of_wheels;
             x.extend(momentum.iter());
         }
         x.extend(self.is_duration_free.then_some(1.0));
@@ -261,10 +358,13 @@ impl Coordinates {
     fn rates_in_time<T: Scalar>(&self, x: &[T], u: &[T]) -> Vec<T> {
         let accelerations = self.accelerations(x, u);
         let attitude = self.attitude_of(x);
-        let external = self.external(&attitude, self.time_of(x));
+        let external = self.surrounding(&attitude, self.time_of(x));
         let mut rates = match self.formulation {
             Formulation::Full => {
                 let motion = &x[..self.motion_end()];
+                let rate = Vector3::new(x[10], x[11], x[12]);
+                let stored = self.wheel_momentum(x);
+                let external = self.with_wheels(external.clone(), &rate, &stored, u);
                 self.system.state_derivative(motion, &accelerations, external.as_ref())
             }
             Formulation::Reduced => {
@@ -275,6 +375,7 @@ impl Coordinates {
         if self.has_jerk {
             rates.extend(self.jerks(u));
         }
+        rates.extend(self.wheel_torques(u));
         if let (false, Some(external)) = (self.momentum().is_empty(), external) {
             let moment = self.system.external_moment(&external, self.joint_angles(x));
             rates.extend(attitude.to_inertial(&moment).iter());
@@ -355,8 +456,9 @@ impl Coordinates {
         let joint_angles = self.joint_angles_within(x, u, s);
         let joint_rates = self.joint_rates_within(x, u, s);
         let mut external = None;
+        let stored = self.stored_within(x, u, s);
         let h_body = match self.environment.is_none() && self.momentum == Vector3::zeros() {
-            true => Vector3::from_element(T::from(0.0)),
+            true => stored.map(|entry| -entry),
             false => {
                 let attitude = self.attitude_of(x);
                 let rate = match self.formulation {
@@ -368,17 +470,20 @@ impl Coordinates {
                     Quaternion::from_array(std::array::from_fn(|i| here[i] + s * turning[i]));
                 let length = there.norm_squared().recip();
                 let mut momentum = self.momentum_of(x, &rate);
-                if let Some(here) = self.external(&attitude, self.time_of(x)) {
+                if let Some(here) = self.surrounding(&attitude, self.time_of(x)) {
                     let moment = self.system.external_moment(&here, self.joint_angles(x));
                     momentum += attitude.to_inertial(&moment).map(|entry| entry * s);
                     let unit = length.sqrt();
                     let there = there.to_array().map(|entry| entry * unit);
-                    external = self.external(&Quaternion::from_array(there), self.time_of(x) + s);
+                    external =
+                        self.surrounding(&Quaternion::from_array(there), self.time_of(x) + s);
                 }
-                there.to_body(&momentum).map(|entry| entry * length)
+                let of_all = there.to_body(&momentum);
+                Vector3::from_fn(|i, _| of_all[i] * length - stored[i])
             }
         };
         let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
+        let external = self.with_wheels(external, &angular_rate, &stored, u);
         let begins = self.accelerations(x, u).into_iter().zip(self.jerks(u));
         let joint_accelerations = begins.map(|(begins, jerk)| begins + s * jerk).collect();
         Moment { angular_rate, joint_angles, joint_rates, joint_accelerations, external }
@@ -397,7 +502,7 @@ impl Coordinates {
     pub(crate) fn jerks<T: Scalar>(&self, u: &[T]) -> Vec<T> {
         match self.has_jerk {
             true => self.of_moving(u),
-            false => vec![T::from(0.0); u.len()],
+            false => vec![T::from(0.0); self.joints()],
         }
     }
 
@@ -412,7 +517,9 @@ impl Coordinates {
             states if states.is_empty() => self.momentum.map(T::from),
             states => Vector3::from_column_slice(&x[states]),
         };
-        let h_body = attitude.to_body(&momentum);
+        let of_all = attitude.to_body(&momentum);
+        let stored = self.wheel_momentum(x);
+        let h_body = Vector3::from_fn(|i, _| of_all[i] - stored[i]);
         self.system.reduced_angular_rate(self.joint_angles(x), self.joint_rates(x), &h_body)
     }
 
@@ -424,18 +531,46 @@ impl Coordinates {
             _ => {
                 let (angles, rates) = (self.joint_angles(x), self.joint_rates(x));
                 let momentum = self.system.angular_momentum(rate, angles, rates);
-                self.attitude_of(x).to_inertial(&momentum)
+                self.attitude_of(x).to_inertial(&(momentum + self.wheel_momentum(x)))
             }
         }
     }
 
+    fn has_wheels(&self) -> bool {
+        !self.all_wheels.is_empty()
+    }
+
+    /// What all wheels store at a time `s` after the beginning of a step from state `x` with the controls `u`.
+    fn stored_within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Vector3<T> {
+        let momenta = x[self.wheels()].iter().zip(self.wheel_torques(u));
+        let momenta: Vec<T> = momenta.map(|(&momentum, &torque)| momentum + s * torque).collect();
+        let working = stored(&self.wheels, &momenta);
+        Vector3::from_fn(|i, _| working[i] + self.bias[i])
+    }
+
     /// What acts from outside in an attitude at a time.
-    pub(crate) fn external<T: Scalar>(
-        &self,
-        attitude: &Quaternion<T>,
-        time: T,
-    ) -> Option<External<T>> {
+    fn surrounding<T: Scalar>(&self, attitude: &Quaternion<T>, time: T) -> Option<External<T>> {
         self.environment.as_ref().map(|environment| environment.external(attitude, time))
+    }
+
+    /// What acts from outside, and what the wheels do that have so much in store, where the base turns at
+    /// `angular_rate`.
+    fn with_wheels<T: Scalar>(
+        &self,
+        external: Option<External<T>>,
+        angular_rate: &Vector3<T>,
+        in_store: &Vector3<T>,
+        u: &[T],
+    ) -> Option<External<T>> {
+        if !self.has_wheels() {
+            return external;
+        }
+        let given = stored(&self.wheels, self.wheel_torques(u));
+        let reaction = reaction(angular_rate, in_store, &given);
+        Some(match external {
+            None => External { torque: reaction, gravity_gradient: None },
+            Some(external) => External { torque: external.torque + reaction, ..external },
+        })
     }
 
     fn base_velocity<T: Scalar>(

@@ -5,7 +5,7 @@ use righting_scenario::scenario::Scenario;
 
 use super::Coordinates;
 
-/// The angles of the joints whose posture at the end the scenario gives, and no acceleration where
+/// The angles of the joints whose posture at the end the scenario gives, the momenta of wheels that it gives, and no acceleration where
 /// accelerations are states. A locked joint is not among them: it is there all the time.
 #[derive(Clone, Debug)]
 pub(super) struct EndConditions {
@@ -22,7 +22,11 @@ impl EndConditions {
             let acceleration = coordinates.joint_acceleration(joint).map(|index| (index, 0.0));
             [angle, acceleration].into_iter().flatten()
         };
-        Self { states: moving.flat_map(of_joint).collect() }
+        let ends = scenario.wheels().iter().zip(scenario.end_wheel_momenta_n_m_s());
+        let working = ends.filter(|(wheel, _)| !wheel.failed);
+        let of_wheels = coordinates.wheels().zip(working);
+        let of_wheels = of_wheels.filter_map(|(state, (_, end))| Some((state, (*end)?)));
+        Self { states: moving.flat_map(of_joint).chain(of_wheels).collect() }
     }
 
     pub(super) fn bounds(&self) -> ComponentBounds {

@@ -1,8 +1,8 @@
 //! The optimal control problem of a scenario.
 //!
 //! ```text
-//! min  w_u ∫‖q̈‖² dt / 0.05 s + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
-//! s.t. joint angle, rate and acceleration limits, dist² ≥ (clearance)², loads within the steps, boresights on
+//! min  ∫ (w_u ‖q̈‖² + w_τ ‖τ_w‖²) dt / 0.05 s + e_Nᵀ Q e_N,   e = [r_d − r; vec(q_d⁻¹ ⊗ q_BN); ω_d − ω; ṙ_d − ṙ; q_d − q; q̇_d − q̇]
+//! s.t. joint angle, rate and acceleration limits, momenta and torques of wheels, dist² ≥ (clearance)², loads within the steps, boresights on
 //!      their side of cones
 //! ```
 //!
@@ -78,12 +78,18 @@ impl FormulatedManeuver {
                 state_bounds.upper[acceleration] = limits.acceleration_max_rad_s2;
             }
         }
+        let wheels = coordinates.working_wheels();
+        for (state, wheel) in coordinates.wheels().zip(wheels) {
+            state_bounds.lower[state] = -wheel.momentum_max_n_m_s;
+            state_bounds.upper[state] = wheel.momentum_max_n_m_s;
+        }
         let controls: Vec<f64> = limits
             .iter()
             .map(|limits| match coordinates.has_jerk() {
                 true => limits.jerk_max_rad_s3,
                 false => limits.acceleration_max_rad_s2,
             })
+            .chain(wheels.iter().map(|wheel| wheel.torque_max_n_m))
             .collect();
 
         let dynamics = coordinates.clone();
@@ -108,14 +114,20 @@ impl FormulatedManeuver {
         let running = coordinates.clone();
         let waypoints = Waypoints::new(scenario);
         let end = EndConditions::new(scenario, &coordinates);
-        let problem = ControlProblem::new(states, limits.len(), move |x, u| dynamics.rates(x, u))
+        let wheel_torque = weights.wheel_torque_per_step(scenario.horizon());
+        let problem = ControlProblem::new(states, controls.len(), move |x, u| dynamics.rates(x, u))
             .free_initial_states(&free)
             .running_cost(move |x, u, step| {
-                effort(&running, x, u, step.length) * running.duration_share(x) * control
-                    + waypoints.cost(&running, x, step)
+                let of_joints = effort(&running, x, u, step.length) * running.duration_share(x);
+                let of_wheels =
+                    sum_of_squares(running.wheel_torques(u)) * running.duration_share(x);
+                of_joints * control + of_wheels * wheel_torque + waypoints.cost(&running, x, step)
             })
             .terminal_cost(move |x| {
-                let end = goal.cost(&terminal.free_floating_state(x), &weights);
+                let mut end = goal.cost(&terminal.free_floating_state(x), &weights);
+                if weights.wheel_momentum > 0.0 {
+                    end += sum_of_squares(&x[terminal.wheels()]) * weights.wheel_momentum;
+                }
                 match longest > 0.0 {
                     true => end + terminal.duration_share(x) * longest,
                     false => end,
@@ -148,6 +160,7 @@ impl FormulatedManeuver {
 /// nothing, that of its control. Where the jerk is held it is Σ q̈² + q̈ h q⃛ + h² q⃛²/3: no other weight on
 /// the jerk is needed to determine it.
 fn effort(coordinates: &Coordinates, x: &[Expr], u: &[Expr], h: Expr) -> Expr {
+    let u = &u[..u.len() - coordinates.wheels().len()];
     if !coordinates.has_jerk() {
         return sum_of_squares(u);
     }

@@ -114,7 +114,7 @@ fn derivatives_of_cones_and_postures_agree_with_finite_differences() {
             file.pointing = vec![fixed, moving];
             let mut angles = vec![None; file.initial.joint_angles_deg.len()];
             angles[1] = Some(12.0);
-            file.end = Some(End { hard: None, joint_angles_deg: Some(angles) });
+            file.end = Some(End { hard: None, joint_angles_deg: Some(angles), ..End::default() });
         });
         check_scenario(name, &scenario, 5, false);
         check_scenario(name, &scenario, 5, true);

@@ -150,7 +150,7 @@ impl InitialGuesses<'_> {
         let mut state = self.coordinates.free_floating_state(guess.states.row(node));
         state.attitude = attitude;
         let mut row = self.coordinates.of_free_floating_state(&state, self.time(node));
-        self.coordinates.copy_joints(guess.states.row(node), &mut row);
+        self.coordinates.copy_driven(guess.states.row(node), &mut row);
         guess.states.row_mut(node).copy_from_slice(&row);
     }
 

@@ -171,8 +171,8 @@ impl Model {
             let state = other.coordinates.free_floating_state(row);
             let time = other.coordinates.time_of(row);
             let mut x = self.coordinates.of_free_floating_state(&state, time);
-            x[self.coordinates.joint_states()]
-                .copy_from_slice(&row[other.coordinates.joint_states()]);
+            x[self.coordinates.driven_states()]
+                .copy_from_slice(&row[other.coordinates.driven_states()]);
             states.push(&x);
         }
         InitialGuess { states, controls: controls.clone() }

@@ -128,7 +128,7 @@ fn largest_turn(coordinates: &Coordinates, controls: &Samples, step_s: f64) -> f
     let mut x = vec![0.0; coordinates.dimension()];
     let mut largest: f64 = 0.0;
     for row in controls.rows() {
-        coordinates.move_joints(&mut x, row, step_s);
+        coordinates.move_driven(&mut x, row, step_s);
         let turned = coordinates.joint_angles(&x).iter().map(|angle| angle.abs());
         largest = largest.max(turned.fold(0.0, f64::max));
     }

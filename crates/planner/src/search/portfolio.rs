@@ -55,7 +55,8 @@ pub(super) fn ranked_guesses(
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Detumble) => {
             let slowest =
                 is_first.then(|| guesses.least_final_rate(SCREENED_GUESSES, DETUMBLE_GUESSES));
-            constant().into_iter().chain(slowest.into_iter().flatten()).collect()
+            let by_wheels = constant().and_then(|held| guesses.driven_by_wheels(held));
+            constant().into_iter().chain(by_wheels).chain(slowest.into_iter().flatten()).collect()
         }
         (file::Guess::Named(NamedGuess::Auto), Maneuver::Slew(_))
             if !scenario.waypoints().is_empty() =>
@@ -80,6 +81,9 @@ pub(super) fn ranked_guesses(
                 .iter()
                 .flat_map(|&number| spread(number))
                 .map(|guess| guesses.simulated(guess));
+            let by_wheels = constant()
+                .map(|constant| guesses.turning_to(constant, target))
+                .and_then(|turning| guesses.driven_by_wheels(turning));
             let loops = guesses.joint_loops(target, loops).into_iter();
             let loops = loops.map(|guess| guesses.to_end_posture(guess));
             constant()
@@ -88,6 +92,7 @@ pub(super) fn ranked_guesses(
                 .chain(turning)
                 .chain(simulated)
                 .chain(loops)
+                .chain(by_wheels)
                 .collect()
         }
     }

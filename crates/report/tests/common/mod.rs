@@ -73,6 +73,7 @@ fn trajectory(joints: usize, steps: usize) -> Trajectory {
             joint_angles_rad: (0..joints).map(|i| (6.0 * phase + i as f64).sin()).collect(),
             joint_rates_rad_s: (0..joints).map(|i| 0.2 * (6.0 * phase + i as f64).cos()).collect(),
             power_w: 1.0,
+            wheel_momenta_n_m_s: Vec::new(),
         }
     });
     let intervals = (0..steps).map(|k| ControlInterval {
@@ -81,6 +82,7 @@ fn trajectory(joints: usize, steps: usize) -> Trajectory {
             .collect(),
         joint_jerks_rad_s3: Vec::new(),
         joint_torques_n_m: vec![0.0; joints],
+        wheel_torques_n_m: Vec::new(),
     });
     Trajectory::new(nodes.collect(), intervals.collect()).expect("the parts fit")
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use righting_scenario::file;
 
-use super::Motion;
+use super::{Motion, State};
 
 /// Equatorial radius of the Earth, m, and its gravitational parameter, m³/s².
 const EARTH_RADIUS_M: f64 = 6_378_137.0;
@@ -94,6 +94,19 @@ impl Orbit {
 }
 
 impl Outside {
+    /// With what wheels do to a base in the state `state`: they have a momentum in store and give a torque, its rate,
+    /// both in body axes (N m s, N m).
+    pub fn with_wheels(
+        self,
+        state: &State<'_>,
+        momentum: &Vector3<f64>,
+        torque: &Vector3<f64>,
+    ) -> Self {
+        let attitude = UnitQuaternion::from_quaternion(state.attitude);
+        let reaction = -(torque + state.angular_rate.cross(momentum));
+        Self { torque: self.torque + attitude * reaction, ..self }
+    }
+
     /// Force and moment about its own center of mass with which gravity pulls at a body more than at the system's
     /// center of mass, to first order in `from_center` (m) over the orbit's radius; `inertia` is in inertial axes.
     fn pull(
