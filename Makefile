@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheel bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -49,6 +49,12 @@ replay: setup
 limits: setup
 	cargo build --release --locked
 	scripts/limits.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# What arm and wheels do alone and together, every plan replayed by Pinocchio: docs/wheels.md. Gets a virtual
+# environment of its own.
+wheels: setup
+	cargo build --release --locked
+	scripts/wheels.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
 # The wheel of the Python package in out/wheel/dist, with Ipopt in it, and its tests in a virtual environment of its
 # own, beside the plans of the command line.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Replay plans with Pinocchio: does an independent library's model of the arm move as the plan says?
 
-For every folder with a verified plan: the model is built from the scenario in solution.json, the joints follow
-the controls of trajectory.csv exactly, and the base's attitude follows from the conserved momentum, integrated
-in small steps. Compared are attitude, joints, momentum at rest and the joint torques. Needs `pin` and `numpy`.
+For every folder with a verified plan: the model is built from the scenario in solution.json, joints and wheels follow
+the controls of trajectory.csv exactly, and the base's attitude follows from the momentum, which is conserved or
+changes by what acts from outside, integrated in small steps. Compared are attitude, joints, momentum at rest and the joint torques. Needs `pin` and `numpy`.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ def replayed(scenario: dict, table: Path) -> list[str]:
     system = scenario["system"]
     model, order = build(system)
     time_s, states, controls, torques = read(table, order)
+    outside = Outside(scenario, table)
     data, joints = model.createData(), controls.shape[1]
     position, attitude = states[0, :3], states[0, 3:7]
     angles, rates = states[0, 13 : 13 + joints], states[0, 13 + joints :]
@@ -54,32 +55,37 @@ def replayed(scenario: dict, table: Path) -> list[str]:
     velocity = np.r_[turn.T @ states[0, 7:10], states[0, 10:13], rates]
     pin.computeCentroidalMomentum(model, data, configuration(position, attitude, angles), velocity)
     momentum = data.hg.vector.copy()
+    momentum[3:] += turn @ outside.stored(0, 0.0)
 
-    def derivative(pose: np.ndarray, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        unit = pose[3:] / np.linalg.norm(pose[3:])
+    def derivative(pose: np.ndarray, k: int, s: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        unit = pose[3:7] / np.linalg.norm(pose[3:7])
+        turn = rotation(unit)
         matrix = pin.computeCentroidalMap(model, data, configuration(pose[:3], unit, q))
-        twist = np.linalg.solve(matrix[:, :6], momentum - matrix[:, 6:] @ qd)
+        of_bodies = np.r_[momentum[:3], pose[7:] - turn @ outside.stored(k, s)]
+        twist = np.linalg.solve(matrix[:, :6], of_bodies - matrix[:, 6:] @ qd)
         spin = twist[3:]
         quaternion = 0.5 * np.r_[-unit[1:] @ spin, unit[0] * spin + np.cross(unit[1:], spin)]
-        return np.r_[rotation(unit) @ twist[:3], quaternion]
+        moment = outside.moment(model, data, configuration(pose[:3], unit, q), turn, time_s[k] + s)
+        return np.r_[turn @ twist[:3], quaternion, moment]
 
-    pose = np.r_[position, attitude]
+    # Position, attitude and angular momentum.
+    pose = np.r_[position, attitude, momentum[3:]]
     worst_attitude = worst_joint = 0.0
     for k, u in enumerate(controls):
         step_s = time_s[k + 1] - time_s[k]
         substeps = max(SUBSTEPS, math.ceil(step_s * np.linalg.norm(states[k, 10:13]) / TURN))
         h = step_s / substeps
-        for _ in range(substeps):
-            moved = lambda s: (angles + s * rates + 0.5 * s * s * u, rates + s * u)
+        for part in range(substeps):
+            moved = lambda s: (k, part * h + s, angles + s * rates + 0.5 * s * s * u, rates + s * u)
             k1 = derivative(pose, *moved(0.0))
             k2 = derivative(pose + h / 2 * k1, *moved(h / 2))
             k3 = derivative(pose + h / 2 * k2, *moved(h / 2))
             k4 = derivative(pose + h * k3, *moved(h))
             pose = pose + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-            angles, rates = moved(h)
-        pose[3:] /= np.linalg.norm(pose[3:])
+            angles, rates = moved(h)[2:]
+        pose[3:7] /= np.linalg.norm(pose[3:7])
         node = states[k + 1]
-        off = min(np.abs(pose[3:] - node[3:7]).max(), np.abs(pose[3:] + node[3:7]).max())
+        off = min(np.abs(pose[3:7] - node[3:7]).max(), np.abs(pose[3:7] + node[3:7]).max())
         worst_attitude = max(worst_attitude, off)
         found = np.r_[angles, rates]
         worst_joint = max(worst_joint, np.abs(found - node[13:]).max())
@@ -89,22 +95,101 @@ def replayed(scenario: dict, table: Path) -> list[str]:
     if worst_joint > JOINTS:
         problems.append(f"joints off by {worst_joint:.1e}")
     nodes = np.linspace(0, len(controls) - 1, min(LOOKED_AT, len(controls))).astype(int)
-    expected = np.array([torque(model, data, states[k], controls[k]) for k in nodes])
+    push = lambda k: outside.forces(model, data, states[k], joints, time_s[k], k)
+    expected = np.array([torque(model, data, states[k], controls[k], push(k)) for k in nodes])
     largest = np.abs(expected).max()
     if largest > 0 and np.abs(expected - torques[nodes]).max() > TORQUE * largest:
         problems.append(f"torques off by {np.abs(expected - torques[nodes]).max() / largest:.1e}")
     return problems
 
 
-def torque(model: pin.Model, data: pin.Data, state: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Joint torques of the free-floating system at a state."""
+class Outside:
+    """What acts on the bodies: wheels, of which the momenta are known, couples on the base and a gravity gradient."""
+
+    def __init__(self, scenario: dict, table: Path):
+        wheels = scenario.get("wheels") or []
+        axes = [np.array(wheel["axis"], float) / np.linalg.norm(wheel["axis"]) for wheel in wheels]
+        with open(table, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        sums = lambda name, unit, row: sum(
+            (axis * float(row[f"{name}{i + 1}_{unit}"]) for i, axis in enumerate(axes)), np.zeros(3)
+        )
+        self.momenta = [sums("hw", "n_m_s", row) for row in rows]
+        self.torques = [sums("tauw", "n_m", row) for row in rows[:-1]]
+        given = scenario.get("environment") or {}
+        self.in_body = np.array(given.get("torque_body_n_m") or [0, 0, 0], float)
+        self.inertial = np.array(given.get("torque_inertial_n_m") or [0, 0, 0], float)
+        self.orbit = orbit(given["gravity_gradient"]) if given.get("gravity_gradient") else None
+
+    def stored(self, k: int, after_s: float) -> np.ndarray:
+        """The momentum of the wheels a time after node k, body axes."""
+        return self.momenta[k] + after_s * self.torques[min(k, len(self.torques) - 1)]
+
+    def nadir(self, time_s: float) -> np.ndarray:
+        rate, up, ahead = self.orbit
+        return -(math.cos(rate * time_s) * up + math.sin(rate * time_s) * ahead)
+
+    def moment(
+        self, model: pin.Model, data: pin.Data, q: np.ndarray, turn: np.ndarray, time_s: float
+    ) -> np.ndarray:
+        """The moment from outside about the center of mass, inertial axes."""
+        moment = turn @ self.in_body + self.inertial
+        if self.orbit:
+            pin.ccrba(model, data, q, np.zeros(model.nv))
+            nadir = self.nadir(time_s)
+            moment = moment + 3 * self.orbit[0] ** 2 * np.cross(nadir, data.Ig.inertia @ nadir)
+        return moment
+
+    def forces(
+        self, model: pin.Model, data: pin.Data, state: np.ndarray, joints: int, time_s: float, k: int
+    ) -> list[pin.Force]:
+        """What acts on each body at node k, in the axes and about the origin of its joint."""
+        turn, spin = rotation(state[3:7]), state[10:13]
+        on_base = self.in_body + turn.T @ self.inertial
+        on_base = on_base - self.torques[k] - np.cross(spin, self.momenta[k])
+        forces = [pin.Force.Zero(), pin.Force(np.zeros(3), on_base)]
+        forces += [pin.Force.Zero() for _ in range(joints)]
+        if self.orbit:
+            q = configuration(state[:3], state[3:7], state[13 : 13 + joints])
+            center = pin.centerOfMass(model, data, q).copy()
+            square, nadir = self.orbit[0] ** 2, self.nadir(time_s)
+            for joint in range(1, model.njoints):
+                placed, body = data.oMi[joint], model.inertias[joint]
+                place = placed.act(body.lever) - center
+                pull = square * body.mass * (3 * nadir * (nadir @ place) - place)
+                along = placed.rotation.T @ nadir
+                force = placed.rotation.T @ pull
+                moment = 3 * square * np.cross(along, body.inertia @ along) + np.cross(body.lever, force)
+                forces[joint] = pin.Force(force, moment) + forces[joint]
+        return forces
+
+
+def orbit(gradient: dict) -> tuple[float, np.ndarray, np.ndarray]:
+    """The rate of a circular orbit, and where it is and goes at the start, inertial axes."""
+    rate = math.sqrt(3.986004418e14 / (6378137.0 + 1000 * gradient["altitude_km"]) ** 3)
+    elements = gradient.get("elements")
+    if elements:
+        node, inclination, along = (
+            math.radians(elements[name])
+            for name in ("right_ascension_deg", "inclination_deg", "argument_of_latitude_deg")
+        )
+        turn = about_z(node) @ about_x(inclination) @ about_z(along)
+        return rate, turn @ [1, 0, 0], turn @ [0, 1, 0]
+    turn = rotation(np.array(gradient.get("orbit_attitude") or [1, 0, 0, 0], float))
+    return rate, turn @ [0, 0, -1], turn @ [1, 0, 0]
+
+
+def torque(
+    model: pin.Model, data: pin.Data, state: np.ndarray, u: np.ndarray, forces: list[pin.Force]
+) -> np.ndarray:
+    """Joint torques of the free-floating system at a state, on whose bodies these forces act."""
     joints = len(u)
     turn = rotation(state[3:7])
     q = configuration(state[:3], state[3:7], state[13 : 13 + joints])
     v = np.r_[turn.T @ state[7:10], state[10:13], state[13 + joints :]]
     mass = pin.crba(model, data, q)
     mass = np.triu(mass) + np.triu(mass, 1).T
-    bias = pin.rnea(model, data, q, v, np.zeros(model.nv))
+    bias = pin.rnea(model, data, q, v, np.zeros(model.nv), forces)
     base = np.linalg.solve(mass[:6, :6], -bias[:6] - mass[:6, 6:] @ u)
     return (mass @ np.r_[base, u] + bias)[6:]
 

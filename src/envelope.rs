@@ -8,10 +8,9 @@ use righting_analysis::envelope::Sizing;
 use righting_analysis::zonotope::{Radii, Zonotope};
 use righting_analysis::{Envelope, Envelopes, envelopes};
 use righting_report::{EnvelopeOutlines, envelope_svg};
-use righting_scenario::WheelArray;
 use righting_scenario::json::FileKind;
-use righting_scenario::system_or_scenario::read_system_or_scenario;
 use righting_scenario::wheels::Wheel;
+use righting_scenario::{SystemOrScenario, WheelArray};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -73,11 +72,15 @@ struct PrintedWheels<'a> {
 /// Reads, searches, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
-    let system = read_system_or_scenario(&arguments.file)
+    let file = SystemOrScenario::read(&arguments.file)
         .map_err(|error| Failure::InputOf { kind: FileKind::SystemOrScenario, error })?;
-    let wheels = arguments.wheels.read()?;
+    let wheels = arguments.wheels.read_or(match &file {
+        SystemOrScenario::Scenario(scenario) => WheelArray::of(scenario.wheels()),
+        SystemOrScenario::System(_) => None,
+    })?;
+    let system = file.system();
     let folder = OutputFolder::open(&arguments.out)?;
-    let found = envelopes(&system, arguments.samples as usize, arguments.seed, &wheels);
+    let found = envelopes(system, arguments.samples as usize, arguments.seed, &wheels);
     let zonotopes = [Zonotope::momenta(wheels.wheels()), Zonotope::torques(wheels.wheels())];
     let [momentum, torque] = [zonotopes[0].radii(), zonotopes[1].radii()];
     let printed = Printed {
@@ -147,9 +150,17 @@ fn describe(printed: &Printed<'_>, wheels: [Radii; 2]) -> String {
         row(&format!("arm, along {axis}"), h.per_axis_max[i], t.per_axis_max[i]);
     }
     row("arm, least of all directions", h.true_min, t.true_min);
-    row(&format!("{} wheels, max", printed.wheels.array.len()), wheels[0].max, wheels[1].max);
+    let working = printed.wheels.array.iter().filter(|wheel| !wheel.failed).count();
+    row(&format!("{working} wheels, max"), wheels[0].max, wheels[1].max);
     row("wheels, min", wheels[0].min, wheels[1].min);
     row("wheels, root mean square", wheels[0].rms, wheels[1].rms);
+    let [both_h, both_t] = [h.with_wheels, t.with_wheels];
+    row("arm and wheels, max", both_h.max, both_t.max);
+    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let name = format!("arm and wheels, along {axis}");
+        row(&name, both_h.per_axis_max[i], both_t.per_axis_max[i]);
+    }
+    row("arm and wheels, least of all", both_h.min, both_t.min);
     row("volume, sampled hull", h.hull_volume, t.hull_volume);
     row("volume, true, at least", h.true_volume, t.true_volume);
     row("volume, wheels", printed.wheels.momentum_volume, printed.wheels.torque_volume);

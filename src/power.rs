@@ -8,8 +8,8 @@ use righting_analysis::motors::{Braking, Losses};
 use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
 use righting_analysis::{Motors, PowerProfile};
 use righting_report::{PowerComparison, power_svg, power_table};
-use righting_scenario::Error;
 use righting_scenario::wheels::Wheel;
+use righting_scenario::{Error, WheelArray};
 use righting_verifier::Verified;
 use serde::Serialize;
 
@@ -89,8 +89,8 @@ struct PrintedWheels<'a> {
 /// Reads, checks, computes, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
-    let wheels = arguments.wheels.read()?;
     let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
+    let wheels = arguments.wheels.read_or(WheelArray::of(scenario.wheels()))?;
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
     let motors = Motors::new(&scenario.system().drives, &profile);
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;

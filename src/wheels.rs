@@ -11,16 +11,19 @@ use crate::failure::Failure;
 /// The wheels to compare with.
 #[derive(Args)]
 pub struct Wheels {
-    /// The wheels to compare with, a JSON file; a pyramid of four if not given, of 1 N m s, 0.1 N m
-    /// and 5 W each.
+    /// The wheels to compare with, a JSON file; if not given, those of the scenario, and where it has none a
+    /// pyramid of four of 1 N m s, 0.1 N m and 5 W each.
     #[arg(long, value_name = "FILE")]
     wheels: Option<PathBuf>,
 }
 
 impl Wheels {
-    /// Reads them.
-    pub fn read(&self) -> Result<WheelArray, Failure> {
-        WheelArray::read_or_pyramid(self.wheels.as_deref())
-            .map_err(|error| Failure::InputOf { kind: FileKind::Wheels, error })
+    /// Reads them, or takes others where no file is named and there are any.
+    pub fn read_or(&self, others: Option<WheelArray>) -> Result<WheelArray, Failure> {
+        match (&self.wheels, others) {
+            (None, Some(others)) => Ok(others),
+            (file, _) => WheelArray::read_or_pyramid(file.as_deref())
+                .map_err(|error| Failure::InputOf { kind: FileKind::Wheels, error }),
+        }
     }
 }

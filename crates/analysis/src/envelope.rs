@@ -25,6 +25,17 @@ use crate::hull::{Mesh, convex_hull};
 use crate::zonotope::Zonotope;
 use arm::{Arm, Quantity};
 
+/// What arm and wheels reach together: in every direction the sum of what each reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Together {
+    /// The largest extent over all directions.
+    pub max: f64,
+    /// The smallest.
+    pub min: f64,
+    /// The largest component along x, y and z in magnitude.
+    pub per_axis_max: [f64; 3],
+}
+
 /// Momentum and torque envelopes of an arm and of wheels beside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelopes {
@@ -56,6 +67,8 @@ pub struct Envelope {
     /// Volume within the half spaces that bound it: at least that of the true envelope. None for an
     /// arm that reaches nothing in some direction.
     pub true_volume_bound: Option<f64>,
+    /// Of arm and wheels together.
+    pub with_wheels: Together,
     /// What it takes to match the wheels.
     pub sizing: Sizing,
     /// The convex hull of the samples.
@@ -111,6 +124,12 @@ fn envelope(
     let sampled_hull = convex_hull(samples);
     let hull = extent::inner_hull(&reaches);
     let clean = |value: f64| if value.abs() < 1e-12 { 0.0 } else { value };
+    let both = |reach: &extent::Reach| reach.extent() + wheels.extent(&reach.direction);
+    let with_wheels = Together {
+        max: reaches.iter().map(both).fold(0.0, f64::max),
+        min: clean(reaches.iter().map(both).fold(f64::INFINITY, f64::min)),
+        per_axis_max: [0, 1, 2].map(|i| both(&reaches[i]).max(both(&reaches[i + 3]))),
+    };
     Envelope {
         sampled_max: largest(samples),
         true_max: point.norm(),
@@ -121,6 +140,7 @@ fn envelope(
         hull_volume: sampled_hull.volume(),
         true_volume: hull.volume(),
         true_volume_bound: extent::outer_volume(&reaches),
+        with_wheels,
         sizing: sizing::sizing(system, of, &reaches, wheels),
         sampled_hull,
         hull,

@@ -16,7 +16,7 @@ const MEAN_DIRECTIONS: usize = 20_000;
 /// Two unit vectors whose cross product is shorter than this are parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// What an array reaches, in one unit.
+/// What an array reaches, in one unit: that of the wheels that work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zonotope {
     /// H_i w_i.
@@ -47,7 +47,8 @@ impl Zonotope {
 
     fn within(wheels: &[Wheel], limit: impl Fn(&Wheel) -> f64) -> Self {
         let generator = |wheel: &Wheel| Vector3::from(wheel.axis) * limit(wheel);
-        Self { generators: wheels.iter().map(generator).collect() }
+        let working = wheels.iter().filter(|wheel| !wheel.failed);
+        Self { generators: working.map(generator).collect() }
     }
 
     /// The support function Σ |n·g_i|: the largest component along the unit vector `direction`.

@@ -45,6 +45,15 @@ pub enum ExportError {
         Mismatch::new("joints that branch", "one serial arm: this format has no branches")
     )]
     Branches,
+    /// The format knows neither wheels nor what acts from outside.
+    #[error(
+        "scenario: {}",
+        Mismatch::new(
+            "wheels or an environment",
+            "neither: this format has none, the format mujoco has both"
+        )
+    )]
+    Surroundings,
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -145,6 +145,7 @@ fn trajectory(
     // The motion of joints and wheels, exactly as the controls have it: the optimizer's defects would add up.
     let step_s = scaling.duration(scenario.horizon().step_s());
     let coordinates = &found.coordinates;
+    let wheels = coordinates.wheel_set();
     let mut driven = found.solution.states.row(0).to_vec();
     for k in 0..=steps {
         let mut row = found.solution.states.row(k).to_vec();
@@ -152,12 +153,15 @@ fn trajectory(
         let state = scaling.state(coordinates.free_floating_state(&row));
         let mut controls = found.solution.controls.row(k.min(steps - 1)).to_vec();
         if k < steps {
-            coordinates.keep_wheels_within(&driven, &mut controls, step_s);
+            let torques = &mut controls[coordinates.first_wheel()..];
+            wheels.keep_within(&driven[coordinates.wheels()], torques, step_s);
         }
         let controls = &controls;
         let accelerations = coordinates.accelerations(&driven, controls);
-        let wheel_momenta_n_m_s = scaling.wheel_momenta(&coordinates.wheel_momenta(&driven));
-        let wheel_torques_n_m = scaling.wheel_torques(&coordinates.all_wheel_torques(controls));
+        let wheel_momenta_n_m_s =
+            scaling.wheel_momenta(&wheels.all_momenta(&driven[coordinates.wheels()]));
+        let wheel_torques_n_m =
+            scaling.wheel_torques(&wheels.all_torques(coordinates.wheel_torques(controls)));
         if k < steps {
             coordinates.move_driven(&mut driven, controls, step_s);
         }

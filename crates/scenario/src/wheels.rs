@@ -179,7 +179,7 @@ impl WheelArray {
     /// # Errors
     /// Those of reading, and [`Error::Field`] for a field that is wrong.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        Self::of(&Document::read(file, FileKind::Wheels)?.decode()?, file)
+        Self::checked(&Document::read(file, FileKind::Wheels)?.decode()?, file)
     }
 
     /// The same of the text of a file; `file` names it in errors.
@@ -187,16 +187,21 @@ impl WheelArray {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        Self::of(&Document::parse(file, text, FileKind::Wheels)?.decode()?, file)
+        Self::checked(&Document::parse(file, text, FileKind::Wheels)?.decode()?, file)
     }
 
-    fn of(rows: &WheelFile, file: &Path) -> Result<Self, Error> {
+    fn checked(rows: &WheelFile, file: &Path) -> Result<Self, Error> {
         let place = Location::root(file).key("wheels");
         if !(1..=MAX_WHEELS).contains(&rows.wheels.len()) {
             let allowed = format!("an array of 1 to {MAX_WHEELS} wheels");
             return Err(place.refuse(format!("{} wheels", rows.wheels.len()), allowed));
         }
         Ok(Self { wheels: Wheel::all_from_file(&rows.wheels, &place)? })
+    }
+
+    /// The wheels of a scenario, failed ones among them; none where it has none.
+    pub fn of(wheels: &[Wheel]) -> Option<Self> {
+        (!wheels.is_empty()).then(|| Self { wheels: wheels.to_vec() })
     }
 
     /// The wheels of a file, or [the pyramid](Self::pyramid) where none is named.
@@ -212,8 +217,8 @@ impl WheelArray {
         &self.wheels
     }
 
-    /// Power that all wheels take while they spin steadily, W.
+    /// Power that all wheels that work take while they spin steadily, W.
     pub fn steady_power_w(&self) -> f64 {
-        self.wheels.iter().map(|wheel| wheel.steady_power_w).sum()
+        self.wheels.iter().filter(|wheel| !wheel.failed).map(|wheel| wheel.steady_power_w).sum()
     }
 }

@@ -30,13 +30,16 @@ const LEAST: f64 = 1e-15;
 ///
 /// # Errors
 /// [`ExportError::Motion`] for a motion that cannot be followed, [`ExportError::Branches`] for joints that
-/// branch.
+/// branch, [`ExportError::Surroundings`] for a scenario with wheels or an environment.
 pub fn basilisk(
     scenario: &Scenario,
     solution: &Solution,
     trajectory: &Trajectory,
     maneuver: &str,
 ) -> Result<Vec<u8>, ExportError> {
+    if !scenario.wheels().is_empty() || scenario.environment().is_some() {
+        return Err(ExportError::Surroundings);
+    }
     let flight = Flight::new(scenario, trajectory)?;
     let follows = |(index, hinge): (usize, &Hinge)| hinge.parent == index.checked_sub(1);
     if !flight.arm.hinges.iter().enumerate().all(follows) {

@@ -24,6 +24,8 @@ def decoded(text, shape):
 
 # CONSTANTS
 SIMULATOR = "MuJoCo"
+# The first body is the world.
+BASE = 1
 
 
 def fly(step_s, track):
@@ -39,13 +41,15 @@ def fly(step_s, track):
     step, held = 0, np.zeros(len(JOINTS))
     needed, largest_held = np.zeros(TORQUES.shape), np.zeros(len(JOINTS))
 
-    def motors(_, data):
+    def motors(model, data):
+        push(model, data, step)
         place = 2 * (data.time - TIMES[step]) / (TIMES[step + 1] - TIMES[step]) - 1
         data.ctrl[:] = place ** np.arange(7) @ TORQUE_COEFFICIENTS[step] + held
 
     mujoco.set_mjcb_control(motors)
     try:
         for step in range(len(TORQUES)):
+            data.time = TIMES[step]
             mass, bias = reduced(model, data)
             needed[step] = mass @ ACCELERATIONS[step] + bias
             model.opt.timestep = (TIMES[step + 1] - TIMES[step]) / substeps
@@ -70,12 +74,38 @@ def fly(step_s, track):
     return outcome | ({"tracking_torque_percent": percent(largest_held)} if track else {})
 
 
+def push(model, data, step):
+    """What wheels and surroundings do to the bodies, as forces and couples in inertial axes. The momentum of the wheels
+    is known all the time; what it makes on a turning base is a couple too."""
+    attitude, rate = data.xmat[BASE].reshape(3, 3), data.qvel[3:6]
+    store = WHEEL_MOMENTA[step] + (data.time - TIMES[step]) * WHEEL_TORQUES[step]
+    on_base = TORQUE_BODY - WHEEL_TORQUES[step] - np.cross(rate, store)
+    data.xfrc_applied[BASE, 3:] = attitude @ on_base + TORQUE_INERTIAL
+    if ORBIT_RATE == 0:
+        return
+    data.xfrc_applied[BASE + 1 :, 3:] = 0
+    angle = ORBIT_RATE * data.time
+    nadir = np.cos(angle) * np.array(NADIR) - np.sin(angle) * np.array(AHEAD)
+    for body in range(BASE, model.nbody):
+        place = data.xipos[body] - data.subtree_com[BASE]
+        axes = data.ximat[body].reshape(3, 3)
+        along = axes @ (model.body_inertia[body] * (axes.T @ nadir))
+        pull = ORBIT_RATE**2 * (3 * (nadir @ place) * nadir - place)
+        data.xfrc_applied[body, :3] = model.body_mass[body] * pull
+        data.xfrc_applied[body, 3:] += 3 * ORBIT_RATE**2 * np.cross(nadir, along)
+
+
 def reduced(model, data):
     """Mass matrix and bias forces of the joints, the base moving freely."""
     mujoco.mj_forward(model, data)
     mass = np.zeros((model.nv, model.nv))
     for row, unit in zip(mass, np.eye(model.nv)):
         mujoco.mj_mulM(model, data, row, unit)
-    bias = data.qfrc_bias
+    bias = data.qfrc_bias.copy()
+    for body in range(1, model.nbody):
+        pushed = np.zeros(model.nv)
+        force, torque = data.xfrc_applied[body, :3], data.xfrc_applied[body, 3:]
+        mujoco.mj_applyFT(model, data, force, torque, data.xipos[body], body, pushed)
+        bias -= pushed
     of_base = np.linalg.solve(mass[:6, :6], np.c_[mass[:6, 6:], bias[:6]])
     return mass[6:, 6:] - mass[6:, :6] @ of_base[:, :-1], bias[6:] - mass[6:, :6] @ of_base[:, -1]

@@ -7,10 +7,9 @@ use righting_scenario::environment::Environment;
 use righting_scenario::file::Formulation;
 use righting_scenario::initial::Initial;
 use righting_scenario::scenario::Scenario;
-use righting_scenario::wheels::{Wheel, reaction, stored};
 
-use super::Cones;
 use super::loads::Moment;
+use super::{Cones, Wheels};
 
 /// The states of the optimal control problem.
 ///
@@ -36,11 +35,7 @@ pub(crate) struct Coordinates {
     system: Arc<System>,
     /// h₀, the wheels' included, inertial axes, N m s.
     momentum: Vector3<f64>,
-    all_wheels: Arc<[Wheel]>,
-    /// The wheels that work.
-    wheels: Arc<[Wheel]>,
-    /// What the wheels that have failed store, body axes, N m s.
-    bias: Vector3<f64>,
+    wheel_set: Wheels,
     /// What acts from outside, if anything does.
     environment: Option<Arc<Environment>>,
     /// Where the system's centre of mass rests, inertial axes, m.
@@ -59,17 +54,8 @@ impl Coordinates {
         let system = Arc::new(scenario.system().model.clone());
         let initial = scenario.initial();
         let attitude = initial.attitude;
-        let all_wheels = scenario.wheels();
-        let (failed, working): (Vec<Wheel>, Vec<Wheel>) =
-            all_wheels.iter().partition(|wheel| wheel.failed);
-        let at_start = |wheels: &[Wheel]| -> Vector3<f64> {
-            let momenta: Vec<f64> =
-                wheels.iter().map(|wheel| wheel.initial_momentum_n_m_s).collect();
-            stored(wheels, &momenta)
-        };
-        let bias = at_start(&failed);
-        let h_body = bias
-            + at_start(&working)
+        let wheel_set = Wheels::new(scenario);
+        let h_body = wheel_set.stored(&wheel_set.at_start())
             + system.angular_momentum(
                 &initial.angular_rate_rad_s,
                 &initial.joint_angles_rad,
@@ -82,9 +68,7 @@ impl Coordinates {
             formulation,
             momentum: attitude.to_inertial(&h_body),
             center,
-            all_wheels: all_wheels.into(),
-            wheels: working.into(),
-            bias,
+            wheel_set,
             environment: scenario.environment().filter(|it| it.acts()).cloned().map(Arc::new),
             system,
             locked,
@@ -122,56 +106,17 @@ impl Coordinates {
 
     /// The momenta of the wheels that work among the states.
     pub(crate) fn wheels(&self) -> std::ops::Range<usize> {
-        self.joints_end()..self.joints_end() + self.wheels.len()
+        self.joints_end()..self.joints_end() + self.wheel_set.working().len()
     }
 
-    /// The wheels that work.
-    pub(crate) fn working_wheels(&self) -> &[Wheel] {
-        &self.wheels
-    }
-
-    /// The momenta of all wheels in a state, failed ones among them.
-    pub(crate) fn wheel_momenta(&self, x: &[f64]) -> Vec<f64> {
-        self.of_all_wheels(&x[self.wheels()], |wheel| wheel.initial_momentum_n_m_s)
-    }
-
-    /// The torques of all wheels among the controls; failed ones have none.
-    pub(crate) fn all_wheel_torques(&self, u: &[f64]) -> Vec<f64> {
-        self.of_all_wheels(self.wheel_torques(u), |_| 0.0)
-    }
-
-    /// Takes off the torques of a step of length `step_s` from state `x` what the optimizers let pass the limits of
-    /// torque and momentum: as bounds of variables they are relaxed by 1e-8 of a maneuver's own measures, which may
-    /// be much of what a wheel has.
-    pub(crate) fn keep_wheels_within(&self, x: &[f64], u: &mut [f64], step_s: f64) {
-        let torques = u[self.first_wheel()..].iter_mut();
-        for ((torque, momentum), wheel) in torques.zip(&x[self.wheels()]).zip(self.wheels.iter()) {
-            let most = wheel.momentum_max_n_m_s;
-            let reached = (momentum + step_s * *torque).clamp(-most, most);
-            *torque =
-                ((reached - momentum) / step_s).clamp(-wheel.torque_max_n_m, wheel.torque_max_n_m);
-        }
-    }
-
-    /// Values of the wheels that work with those of failed ones in between.
-    fn of_all_wheels(&self, working: &[f64], failed: impl Fn(&Wheel) -> f64) -> Vec<f64> {
-        let mut working = working.iter();
-        let value = |wheel: &Wheel| match wheel.failed {
-            true => failed(wheel),
-            false => *working.next().expect("one a wheel that works"),
-        };
-        self.all_wheels.iter().map(value).collect()
-    }
-
-    /// What the wheels that have failed store, body axes.
-    pub(crate) fn failed_momentum(&self) -> Vector3<f64> {
-        self.bias
+    /// The wheels themselves.
+    pub(crate) fn wheel_set(&self) -> &Wheels {
+        &self.wheel_set
     }
 
     /// What all wheels store in a state, body axes.
     pub(crate) fn wheel_momentum<T: Scalar>(&self, x: &[T]) -> Vector3<T> {
-        let working = stored(&self.wheels, &x[self.wheels()]);
-        Vector3::from_fn(|i, _| working[i] + self.bias[i])
+        self.wheel_set.stored(&x[self.wheels()])
     }
 
     /// Index of the first wheel's torque among the controls.
@@ -181,7 +126,7 @@ impl Coordinates {
 
     /// Number of controls: of the joints, and then of the wheels that work.
     pub(crate) fn control_dimension(&self) -> usize {
-        self.joints() + self.wheels.len()
+        self.joints() + self.wheels().len()
     }
 
     /// The torques of the wheels that work among the controls.
@@ -333,7 +278,7 @@ impl Coordinates {
             }
         };
         x.resize(self.joints_end(), 0.0);
-        x.extend(self.wheels.iter().map(|wheel| wheel.initial_momentum_n_m_s));
+        x.extend(self.wheel_set.at_start());
         if !self.momentum().is_empty() {
             let of_wheels = state.attitude.to_inertial(&self.wheel_momentum(&x));
             let momentum = self.system.inertial_angular_momentum(state) + of_wheels;
@@ -364,7 +309,8 @@ impl Coordinates {
                 let motion = &x[..self.motion_end()];
                 let rate = Vector3::new(x[10], x[11], x[12]);
                 let stored = self.wheel_momentum(x);
-                let external = self.with_wheels(external.clone(), &rate, &stored, u);
+                let torques = self.wheel_torques(u);
+                let external = self.wheel_set.beside(external.clone(), &rate, &stored, torques);
                 self.system.state_derivative(motion, &accelerations, external.as_ref())
             }
             Formulation::Reduced => {
@@ -483,7 +429,8 @@ impl Coordinates {
             }
         };
         let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
-        let external = self.with_wheels(external, &angular_rate, &stored, u);
+        let torques = self.wheel_torques(u);
+        let external = self.wheel_set.beside(external, &angular_rate, &stored, torques);
         let begins = self.accelerations(x, u).into_iter().zip(self.jerks(u));
         let joint_accelerations = begins.map(|(begins, jerk)| begins + s * jerk).collect();
         Moment { angular_rate, joint_angles, joint_rates, joint_accelerations, external }
@@ -536,41 +483,16 @@ impl Coordinates {
         }
     }
 
-    fn has_wheels(&self) -> bool {
-        !self.all_wheels.is_empty()
-    }
-
     /// What all wheels store at a time `s` after the beginning of a step from state `x` with the controls `u`.
     fn stored_within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Vector3<T> {
         let momenta = x[self.wheels()].iter().zip(self.wheel_torques(u));
         let momenta: Vec<T> = momenta.map(|(&momentum, &torque)| momentum + s * torque).collect();
-        let working = stored(&self.wheels, &momenta);
-        Vector3::from_fn(|i, _| working[i] + self.bias[i])
+        self.wheel_set.stored(&momenta)
     }
 
     /// What acts from outside in an attitude at a time.
     fn surrounding<T: Scalar>(&self, attitude: &Quaternion<T>, time: T) -> Option<External<T>> {
         self.environment.as_ref().map(|environment| environment.external(attitude, time))
-    }
-
-    /// What acts from outside, and what the wheels do that have so much in store, where the base turns at
-    /// `angular_rate`.
-    fn with_wheels<T: Scalar>(
-        &self,
-        external: Option<External<T>>,
-        angular_rate: &Vector3<T>,
-        in_store: &Vector3<T>,
-        u: &[T],
-    ) -> Option<External<T>> {
-        if !self.has_wheels() {
-            return external;
-        }
-        let given = stored(&self.wheels, self.wheel_torques(u));
-        let reaction = reaction(angular_rate, in_store, &given);
-        Some(match external {
-            None => External { torque: reaction, gravity_gradient: None },
-            Some(external) => External { torque: external.torque + reaction, ..external },
-        })
     }
 
     fn base_velocity<T: Scalar>(

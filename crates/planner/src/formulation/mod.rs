@@ -20,6 +20,7 @@ mod stage_limits;
 #[cfg(test)]
 mod tests;
 mod waypoints;
+mod wheels;
 
 use nalgebra::Vector3;
 use righting_multibody::{Quaternion, State, System};
@@ -35,6 +36,7 @@ use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
 pub(crate) use stage_limits::StageLimits;
 use waypoints::Waypoints;
+pub(crate) use wheels::Wheels;
 
 /// A scenario as an optimal control problem: what [`Planner`](crate::Planner) transcribes and solves.
 pub struct FormulatedManeuver {
@@ -78,7 +80,7 @@ impl FormulatedManeuver {
                 state_bounds.upper[acceleration] = limits.acceleration_max_rad_s2;
             }
         }
-        let wheels = coordinates.working_wheels();
+        let wheels = coordinates.wheel_set().working();
         for (state, wheel) in coordinates.wheels().zip(wheels) {
             state_bounds.lower[state] = -wheel.momentum_max_n_m_s;
             state_bounds.upper[state] = wheel.momentum_max_n_m_s;

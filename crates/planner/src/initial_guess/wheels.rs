@@ -19,7 +19,7 @@ impl InitialGuesses<'_> {
     /// A guess in which the base turns along its way as the guess has it, and the wheels take the momentum that
     /// this needs as far as they can; none where no wheel works.
     pub(crate) fn driven_by_wheels(&self, mut guess: InitialGuess) -> Option<InitialGuess> {
-        let wheels = self.coordinates.working_wheels();
+        let wheels = self.coordinates.wheel_set().working();
         if wheels.is_empty() {
             return None;
         }
@@ -45,9 +45,8 @@ impl InitialGuesses<'_> {
                 false => Vector3::zeros(),
             };
             let posture = self.coordinates.joint_angles(guess.states.row(node)).to_vec();
-            let wanted = here.to_body(&total)
-                - system.locked_inertia(&posture) * rate
-                - self.coordinates.failed_momentum();
+            let of_failed = self.coordinates.wheel_set().stored(&vec![0.0; wheels.len()]);
+            let wanted = here.to_body(&total) - system.locked_inertia(&posture) * rate - of_failed;
             let momenta = self.least_momenta(&wanted);
             let row = guess.states.row_mut(node);
             for (index, wheel) in wheels.iter().enumerate() {
@@ -69,7 +68,7 @@ impl InitialGuesses<'_> {
     /// About ∫‖τ‖² dt, over [`REFERENCE_INTERVAL_S`], with which the wheels alone make a slew; none where they cannot.
     pub(crate) fn wheel_effort(&self, smallest_rad: f64) -> Option<f64> {
         let Maneuver::Slew(slew) = self.scenario.maneuver() else { return None };
-        let wheels = self.coordinates.working_wheels();
+        let wheels = self.coordinates.wheel_set().working();
         if wheels.is_empty() {
             return None;
         }
@@ -96,7 +95,7 @@ impl InitialGuesses<'_> {
 
     /// The smallest momenta of the wheels that work that are as near to a vector in body axes as they can be.
     fn least_momenta(&self, wanted: &Vector3<f64>) -> DVector<f64> {
-        let wheels = self.coordinates.working_wheels();
+        let wheels = self.coordinates.wheel_set().working();
         let columns: Vec<Vector3<f64>> = wheels.iter().map(|wheel| wheel.axis.into()).collect();
         let axes = Matrix3xX::from_columns(&columns);
         let decomposition = axes.svd(true, true);
