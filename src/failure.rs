@@ -100,6 +100,12 @@ pub enum Failure {
         /// Whether its notes say why.
         has_notes: bool,
     },
+    /// The optimizer ended without an optimum, but with a plan that passes every check.
+    #[error("the plan is verified, but not optimal: {}", status_phrase(*status))]
+    NotOptimal {
+        /// How it ended.
+        status: Status,
+    },
     /// The optimizer had nothing to start from.
     #[error("no acceptable plan: {0}")]
     NotPlanned(#[source] PlanError),
@@ -124,8 +130,11 @@ pub enum Failure {
         falls_short: bool,
     },
     /// The user asked to stop.
-    #[error("interrupted")]
-    Interrupted,
+    #[error("interrupted{}", if *has_plan { ": the plan until then is verified, but not optimal" } else { "" })]
+    Interrupted {
+        /// Whether a verified plan was written all the same.
+        has_plan: bool,
+    },
 }
 
 impl From<PlanError> for Failure {
@@ -174,11 +183,12 @@ impl Failure {
             | Self::NoOptimizer(_)
             | Self::NotSearched(_) => 2,
             Self::NoPlan { .. }
+            | Self::NotOptimal { .. }
             | Self::NotPlanned(_)
             | Self::Impossible(_)
             | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
-            Self::Interrupted => 130,
+            Self::Interrupted { .. } => 130,
         }
     }
 
@@ -188,9 +198,10 @@ impl Failure {
             self,
             Self::NotReady { .. }
                 | Self::NoPlan { .. }
+                | Self::NotOptimal { .. }
                 | Self::OutOfReach { .. }
                 | Self::Unproven { .. }
-                | Self::Interrupted
+                | Self::Interrupted { .. }
         )
     }
 }

@@ -133,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let flights = campaign.fly(count, &|| interrupt.is_asked());
     drop(progress);
     if interrupt.is_asked() {
-        return Err(Failure::Interrupted);
+        return Err(Failure::Interrupted { has_plan: false });
     }
 
     let summary = Summary::of(&flights);

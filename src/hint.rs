@@ -43,6 +43,12 @@ impl Failure {
             Self::NoPlan { status: Status::IterationLimit, .. } => {
                 Some("raise solver.max_iterations, or try solver.guess \"auto\"")
             }
+            Self::NotOptimal { status: Status::IterationLimit } => {
+                Some("raise solver.max_iterations for the optimum")
+            }
+            Self::NotOptimal { status: Status::TimeLimit } => {
+                Some("give it more time for the optimum")
+            }
             Self::NoPlan { has_notes: true, .. } => {
                 Some("the notes say what stood in the way, and what was tried")
             }

@@ -289,7 +289,7 @@ fn keep(
 /// Whether there is an answer.
 fn conclude(found: &Reach) -> Result<(), Failure> {
     match (found.is_interrupted, found.first_succeeding, found.last_failing) {
-        (true, ..) => Err(Failure::Interrupted),
+        (true, ..) => Err(Failure::Interrupted { has_plan: false }),
         (false, None, Some(value)) => Err(Failure::OutOfReach {
             easiest: match found.quantity {
                 Quantity::Duration => format!("in {value} s"),

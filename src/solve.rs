@@ -36,8 +36,8 @@ pub struct Arguments {
     /// too. To add this plan to it, name a folder in it with --out. Made if missing.
     #[arg(long, value_name = "DIR", conflicts_with = "warm_start")]
     library: Option<PathBuf>,
-    /// Stop after so many seconds with what there is then, which is no plan; see also
-    /// solver.time_limit_s of the scenario.
+    /// Stop after so many seconds with what there is then: a plan that is verified but not optimal, or
+    /// none; see also solver.time_limit_s of the scenario.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<Duration>,
     /// Do not write report.html, the interactive page (`righting report DIR` makes it later).
@@ -123,12 +123,16 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 /// Whether that is what was asked for.
 pub fn conclude(solution: &Solution) -> Result<(), Failure> {
-    if solution.status == Status::Interrupted {
-        return Err(Failure::Interrupted);
+    let (status, has_plan) = (solution.status, solution.has_plan());
+    if status == Status::Interrupted {
+        return Err(Failure::Interrupted { has_plan });
     }
-    if !solution.status.is_acceptable() {
+    if !status.is_acceptable() {
         let has_notes = !solution.notes.is_empty();
-        return Err(Failure::NoPlan { status: solution.status, has_notes });
+        return Err(match has_plan {
+            true => Failure::NotOptimal { status },
+            false => Failure::NoPlan { status, has_notes },
+        });
     }
     Failure::of_verification(solution).map_or(Ok(()), Err)
 }
@@ -156,7 +160,7 @@ pub fn write(
     started: Instant,
 ) -> Result<ResultFiles, Failure> {
     folder.remove_earlier_plan()?;
-    let is_plan = solution.status.is_acceptable();
+    let is_plan = solution.has_plan();
     if is_plan {
         trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE))?;
     }

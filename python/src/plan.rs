@@ -97,7 +97,7 @@ impl Plan {
     /// NoPlanError
     ///     There is no plan to write.
     fn save(&self, folder: PathBuf) -> PyResult<()> {
-        if !self.solution.status.is_acceptable() {
+        if !self.solution.has_plan() {
             return Err(Failure::NoPlan(self.solution.status).into());
         }
         let of_file = Failure::of_input(FileKind::Solution);
@@ -492,6 +492,9 @@ impl Plan {
         let verdict = match self.verified() {
             true => "verified".to_owned(),
             false if self.solution.status.is_acceptable() => "NOT VERIFIED".to_owned(),
+            false if self.solution.has_plan() => {
+                format!("verified, not optimal: {}", self.status())
+            }
             false => format!("NO PLAN, {}", self.status()),
         };
         let asked = righting_report::maneuver_phrase(&self.solution);

@@ -153,7 +153,7 @@ fn planned(scenario: Scenario, interrupt: &Interrupt) -> Result<Planned, Failure
     let righting_planner::Planned { solution, trajectory } =
         planner.plan(&scenario, &mut |_| interrupt.control())?;
     match solution.status {
-        Status::Interrupted => Err(Failure::Interrupted),
+        Status::Interrupted => Err(Failure::Interrupted { has_plan: false }),
         status if status.is_acceptable() => Ok(Planned { scenario, solution, trajectory }),
         status => Err(Failure::NoPlan { status, has_notes: false }),
     }

@@ -107,7 +107,7 @@ pub fn work() -> Result<(), Failure> {
     let _first_is_not_for_us = Interrupt::watch();
     optimizer::load()?;
     worker::serve().map_err(|error| match error.kind() {
-        io::ErrorKind::BrokenPipe => Failure::Interrupted,
+        io::ErrorKind::BrokenPipe => Failure::Interrupted { has_plan: false },
         _ => Failure::Stdout(error),
     })
 }

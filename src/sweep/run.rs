@@ -66,7 +66,7 @@ pub fn run_shard(
             "{} of {left} cases are left: --resume goes on",
             left - recorded
         ));
-        return Err(Failure::Interrupted);
+        return Err(Failure::Interrupted { has_plan: false });
     }
     Ok(())
 }

@@ -14,6 +14,8 @@ mod export;
 mod figures;
 mod full_disk;
 mod import;
+#[cfg(unix)]
+mod interrupted;
 mod kinds;
 mod library;
 mod machine;

@@ -77,6 +77,7 @@ mod derivative_errors;
 mod error;
 mod iteration;
 mod linear_solver;
+mod optimality_residuals;
 mod options;
 mod problem;
 mod reduced_hessian;
@@ -95,6 +96,7 @@ pub use derivative_errors::DerivativeErrors;
 pub use error::{MatrixName, NlpError, VectorName};
 pub use iteration::{Control, Iteration};
 pub use linear_solver::{Factorization, LinearSolver, LinearSolverError, PivotTolerances};
+pub use optimality_residuals::OptimalityResiduals;
 pub use options::{
     FixedVariables, Hessian, MuStrategy, MultiplierInitialization, NlpScaling, OptionRange,
     OptionValue, Options,

@@ -7,6 +7,8 @@ pub enum Status {
     Solved,
     /// Converged to the acceptable tolerances only.
     Acceptable,
+    /// Converged by the optimizer's account, but not by residuals that were computed apart from it.
+    Unconfirmed,
     /// Converged to a point where the constraint violation cannot locally be reduced.
     Infeasible,
     /// Steps became as small as rounding errors.
@@ -61,6 +63,7 @@ impl fmt::Display for Status {
         f.write_str(match self {
             Self::Solved => "solved",
             Self::Acceptable => "solved to the acceptable tolerances",
+            Self::Unconfirmed => "converged by the optimizer's account alone",
             Self::Infeasible => "converged to a locally infeasible point",
             Self::SearchDirectionTooSmall => "search direction too small",
             Self::Diverging => "iterates diverge",

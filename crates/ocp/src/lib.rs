@@ -64,6 +64,7 @@ mod step_errors;
 mod step_functions;
 mod structure;
 mod trajectory;
+mod verdict;
 
 pub use attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 pub use component_bounds::ComponentBounds;
@@ -86,8 +87,8 @@ pub use stage_functions::StageFunctions;
 
 pub use num_dual::DualNum;
 pub use righting_nlp::{
-    Control, DerivativeErrors, Iteration, MultiplierInitialization, NlpScaling, Options,
-    ReducedHessian, Status, Timing,
+    Control, DerivativeErrors, Iteration, MultiplierInitialization, NlpScaling,
+    OptimalityResiduals, Options, ReducedHessian, Status, Timing,
 };
 pub use righting_scalar::Scalar;
 pub use righting_symbolic::{Backend, Expr};

@@ -33,6 +33,7 @@ fn between_settings(settings: &Settings) -> Settings {
     // The first barrier problem is the only one.
     between.ipopt.barrier_tol_factor = 1.0;
     between.optimizer = Optimizer::Interior;
+    between.judges = false;
     between
 }
 

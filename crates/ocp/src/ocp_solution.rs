@@ -1,4 +1,4 @@
-use righting_nlp::{Iteration, ReducedHessian, Status, Timing};
+use righting_nlp::{Iteration, OptimalityResiduals, ReducedHessian, Status, Timing};
 
 use crate::attempt::{Attempt, UsedLinearSolver};
 use crate::primal_dual_point::PrimalDualPoint;
@@ -8,8 +8,11 @@ use crate::settings::Optimizer;
 /// What a solve ended with, converged or not.
 #[derive(Debug, Clone)]
 pub struct OcpSolution {
-    /// How the optimizer ended.
+    /// How the optimizer ended; where the residuals were [judged](crate::Settings::judges), what they say.
     pub status: Status,
+    /// The residuals of optimality, computed apart from the optimizer, where the settings asked for them and
+    /// the problem is defined at the point.
+    pub residuals: Option<OptimalityResiduals>,
     /// The objective at the point.
     pub objective: f64,
     /// Largest violation of a constraint or bound.

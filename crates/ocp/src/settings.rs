@@ -13,6 +13,9 @@ pub struct Settings {
     /// Whether [`LinearSolverChoice::Auto`] tries MUMPS too when the stage solver has used up its
     /// iterations. Default true; false for one start of many.
     pub retry_at_iteration_limit: bool,
+    /// Whether the residuals of optimality are computed again after the solve, apart from the optimizer, and
+    /// decide on its status. Default false: what is a start for another solve needs no proof.
+    pub judges: bool,
 }
 
 impl Default for Settings {
@@ -22,6 +25,7 @@ impl Default for Settings {
             optimizer: Optimizer::Ipopt,
             linear_solver: LinearSolverChoice::Auto,
             retry_at_iteration_limit: true,
+            judges: false,
         }
     }
 }

@@ -29,15 +29,24 @@ impl MultipleShooting<'_> {
         mut on_iteration: impl FnMut(&Iteration) -> Control,
     ) -> Result<OcpSolution, OcpError> {
         let start = self.ipopt_start(start)?;
-        if settings.linear_solver == LinearSolverChoice::Mumps {
-            return self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration);
+        let mut solution = match settings.linear_solver {
+            LinearSolverChoice::Mumps => {
+                self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?
+            }
+            LinearSolverChoice::Auto | LinearSolverChoice::Stage => {
+                let known = self.stages.take();
+                let mut stages =
+                    known.unwrap_or_else(|| StageKkt::new(&self.stage_dims()).stop_at_excess());
+                let solution =
+                    self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
+                self.stages = Some(stages);
+                solution?
+            }
+        };
+        if settings.judges {
+            self.judge(&mut solution, &settings.ipopt)?;
         }
-        let known = self.stages.take();
-        let mut stages =
-            known.unwrap_or_else(|| StageKkt::new(&self.stage_dims()).stop_at_excess());
-        let solution = self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
-        self.stages = Some(stages);
-        solution
+        Ok(solution)
     }
 
     /// Solves with `stage`, and where that does not succeed with MUMPS if the settings allow.
@@ -178,6 +187,7 @@ impl MultipleShooting<'_> {
         };
         OcpSolution {
             status: solution.status,
+            residuals: None,
             objective: solution.objective,
             constraint_violation: solution.constraint_violation,
             history,

@@ -31,7 +31,8 @@
 #![forbid(unsafe_code)]
 
 mod between_nodes;
-pub mod feedback;
+pub mod delivered;
+mod feedback;
 mod formulation;
 mod hints;
 mod initial_guess;

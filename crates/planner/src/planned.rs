@@ -6,18 +6,19 @@ use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
-    AttemptRecord, ControlInterval, IterationRecord, Node, Solution, Status, Terminal, Timing,
-    Trajectory, UsedOptimizer, Verification, Versions, WaypointRecord, objective,
+    AttemptRecord, IterationRecord, OptimalityRecord, Solution, Status, Terminal, Timing,
+    Trajectory, UsedOptimizer, Versions, WaypointRecord, objective,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
-use righting_verifier::verify;
 
+use crate::delivered::Delivered;
 use crate::hints::hints;
 use crate::scaling::Scaling;
 use crate::search::Found;
 
-/// A plan that was computed, converged or not, and verified where it converged.
+/// A plan that was computed, converged or not, and verified: where it did not converge, the cheapest motion on the
+/// way that passes every check, if there is one.
 #[derive(Clone, Debug)]
 pub struct Planned {
     /// How it ended, what it reached, and the record of its verification. Of its times, `load` and
@@ -26,6 +27,10 @@ pub struct Planned {
     /// The trajectory on the scenario's grid.
     pub trajectory: Trajectory,
 }
+
+/// What a plan says that did not converge.
+const NOT_OPTIMAL: &str =
+    "not optimal: the cheapest motion found until then that passes every check";
 
 /// What ended a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,9 +51,6 @@ impl Planned {
         ending: Ending,
         program: &str,
     ) -> Result<Self, ShapeError> {
-        let duration_s = found.duration_share().map(|share| share * asked.horizon().duration_s);
-        let chosen = duration_s.map(|duration_s| asked.clone().with_duration(duration_s));
-        let scenario = chosen.as_ref().unwrap_or(asked);
         let status = match (ending, status(found.solution.status)) {
             (Ending::Interrupted, _) => Status::Interrupted,
             (Ending::TimeLimit, _) => Status::TimeLimit,
@@ -56,17 +58,21 @@ impl Planned {
             (Ending::Finished, Status::Solved) if !found.is_minimum => Status::Acceptable,
             (Ending::Finished, status) => status,
         };
-        let trajectory = trajectory(scenario, scaling, &found)?;
         let checking = Instant::now();
-        let verification = match status.is_acceptable() {
-            true => verify(scenario, &trajectory),
-            false => Verification::default(),
+        let delivered = match status.is_acceptable() {
+            true => Delivered::converged(asked, scaling, &found)?,
+            false => Delivered::best_of_unconverged(asked, scaling, &found)?,
         };
+        let Delivered { scenario, duration_s, trajectory, verification } = delivered;
+        let scenario = &scenario;
         let timing_s = timing(&found, checking.elapsed());
         let terminal = Terminal::reached(scenario, &trajectory);
         let is_detumble = *scenario.maneuver() == Maneuver::Detumble;
         let mut notes = [scenario.notes(), &found.notes].concat();
-        notes.extend(hints(scenario, &trajectory, status));
+        notes.extend(match (status.is_acceptable(), verification.passed) {
+            (false, true) => vec![NOT_OPTIMAL.to_owned()],
+            _ => hints(scenario, &trajectory, status),
+        });
         let solution = Solution {
             schema: SCHEMA.to_owned(),
             scenario: scenario.resolved().clone(),
@@ -76,6 +82,11 @@ impl Planned {
             objective: objective(scenario, &trajectory),
             iterations: found.solution.iterations(),
             constraint_violation: found.solution.constraint_violation,
+            optimality: found.solution.residuals.map(|residuals| OptimalityRecord {
+                stationarity: residuals.stationarity,
+                violation: residuals.violation,
+                complementarity: residuals.complementarity,
+            }),
             duration_s,
             terminal,
             waypoints: WaypointRecord::reached(scenario, &trajectory),
@@ -132,84 +143,6 @@ fn versions(solution: &righting_ocp::OcpSolution, program: &str) -> Versions {
     }
 }
 
-/// The whole motion, with the torques that it takes and their power.
-fn trajectory(
-    scenario: &Scenario,
-    scaling: &Scaling,
-    found: &Found,
-) -> Result<Trajectory, ShapeError> {
-    let system = &scenario.system().model;
-    let steps = scenario.horizon().steps;
-    let mut nodes = Vec::with_capacity(steps + 1);
-    let mut intervals = Vec::with_capacity(steps);
-    // The motion of joints and wheels, exactly as the controls have it: the optimizer's defects would add up.
-    let step_s = scaling.duration(scenario.horizon().step_s());
-    let coordinates = &found.coordinates;
-    let wheels = coordinates.wheel_set();
-    let mut driven = found.solution.states.row(0).to_vec();
-    for k in 0..=steps {
-        let mut row = found.solution.states.row(k).to_vec();
-        coordinates.copy_driven(&driven, &mut row);
-        let state = scaling.state(coordinates.free_floating_state(&row));
-        let mut controls = found.solution.controls.row(k.min(steps - 1)).to_vec();
-        if k < steps {
-            let torques = &mut controls[coordinates.first_wheel()..];
-            wheels.keep_within(&driven[coordinates.wheels()], torques, step_s);
-        }
-        let controls = &controls;
-        let accelerations = coordinates.accelerations(&driven, controls);
-        let wheel_momenta_n_m_s =
-            scaling.wheel_momenta(&wheels.all_momenta(&driven[coordinates.wheels()]));
-        let wheel_torques_n_m =
-            scaling.wheel_torques(&wheels.all_torques(coordinates.wheel_torques(controls)));
-        if k < steps {
-            coordinates.move_driven(&mut driven, controls, step_s);
-        }
-        let accelerations = scaling.accelerations(&accelerations);
-        let time_s = scenario.horizon().time_s(k);
-        let external = scenario.external(
-            &state.attitude,
-            &state.angular_rate,
-            time_s,
-            (&wheel_momenta_n_m_s, &wheel_torques_n_m),
-        );
-        let torques = system.joint_torques(
-            &state.angular_rate,
-            &state.joint_angles,
-            &state.joint_rates,
-            &accelerations,
-            external.as_ref(),
-        );
-        nodes.push(Node {
-            time_s,
-            position_m: state.position.into(),
-            attitude: state.attitude.to_array(),
-            velocity_m_s: state.velocity.into(),
-            angular_rate_rad_s: state.angular_rate.into(),
-            power_w: torques
-                .iter()
-                .zip(&state.joint_rates)
-                .map(|(torque, rate)| torque * rate)
-                .sum(),
-            joint_angles_rad: state.joint_angles,
-            joint_rates_rad_s: state.joint_rates,
-            wheel_momenta_n_m_s,
-        });
-        if k < steps {
-            intervals.push(ControlInterval {
-                joint_accelerations_rad_s2: accelerations,
-                joint_jerks_rad_s3: match coordinates.has_jerk() {
-                    true => scaling.jerks(&coordinates.jerks(controls)),
-                    false => Vec::new(),
-                },
-                joint_torques_n_m: torques,
-                wheel_torques_n_m,
-            });
-        }
-    }
-    Trajectory::new(nodes, intervals)
-}
-
 pub(crate) fn record(iteration: &Iteration) -> IterationRecord {
     IterationRecord {
         iteration: iteration.iteration,
@@ -253,6 +186,7 @@ fn status(status: righting_ocp::Status) -> Status {
     match status {
         Ipopt::Solved => Status::Solved,
         Ipopt::Acceptable | Ipopt::FeasiblePointFound => Status::Acceptable,
+        Ipopt::Unconfirmed => Status::Unconfirmed,
         Ipopt::Infeasible => Status::Infeasible,
         Ipopt::IterationLimit => Status::IterationLimit,
         Ipopt::CpuTimeLimit | Ipopt::WallTimeLimit => Status::TimeLimit,

@@ -74,7 +74,7 @@ fn needs_any(scenario: &Scenario, solution: &Solution) -> bool {
         (status, Maneuver::Slew(_)) if status.is_acceptable() => {
             asks_for_target && solution.largest_miss().0 > righting_verifier::ATTITUDE_ERROR
         }
-        (status, Maneuver::Slew(_)) => !status.is_acceptable(),
+        (_, Maneuver::Slew(_)) => !solution.has_plan(),
         (_, Maneuver::Detumble) => false,
     }
 }

@@ -110,6 +110,7 @@ impl Replanner {
         }
         let settings = Settings {
             optimizer: Optimizer::Interior,
+            judges: false,
             linear_solver: LinearSolverChoice::Stage,
             ..settings::delivered(&scenario)
         };

@@ -76,7 +76,8 @@ pub(crate) fn heading(solution: &Solution) -> (String, String) {
 /// Whether a plan is proven, in a word or two.
 pub(crate) fn verdict_in_short(solution: &Solution) -> &'static str {
     match (solution.status.is_acceptable(), solution.verification.passed) {
-        (_, true) => "verified",
+        (true, true) => "verified",
+        (false, true) => "verified, not optimal",
         (true, false) => "NOT VERIFIED",
         (false, false) => "NOT SOLVED",
     }

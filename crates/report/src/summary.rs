@@ -83,6 +83,7 @@ pub fn status_phrase(status: Status) -> &'static str {
     match status {
         Status::Solved => "solved",
         Status::Acceptable => "solved to the acceptable tolerance",
+        Status::Unconfirmed => "stopped at a point that is no optimum by its own residuals",
         Status::Infeasible => "stopped at a point of least infeasibility",
         Status::IterationLimit => "stopped at the iteration limit",
         Status::TimeLimit => "stopped at the time limit",
@@ -133,6 +134,10 @@ pub(crate) fn verdict(solution: &Solution) -> String {
     let verification = &solution.verification;
     let failed = verification.failures().count();
     match (verification.passed, verification.checks.len()) {
+        (true, 1..) if !solution.status.is_acceptable() => {
+            "Verified, but not optimal: an independent integration agrees and every limit holds"
+                .to_owned()
+        }
         (_, 0) => "Not verified: there was no plan to check".to_owned(),
         (true, _) => "Verified: an independent integration agrees and every limit holds".to_owned(),
         (false, all) => format!("NOT VERIFIED: {failed} of {all} checks failed"),

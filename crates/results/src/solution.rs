@@ -29,7 +29,8 @@ pub struct Solution {
     pub scenario_sha256: String,
     /// What computed it.
     pub versions: Versions,
-    /// How the optimizer ended.
+    /// How the solve ended. A plan that is not optimal may be there all the same: see
+    /// [`has_plan`](Self::has_plan).
     pub status: Status,
     /// Value of the objective, in the scenario's weights.
     #[serde(with = "FiniteOrNull")]
@@ -37,9 +38,13 @@ pub struct Solution {
     /// Number of optimizer iterations on the asked grid; those of the starts and the coarser grids
     /// before it are not among them.
     pub iterations: usize,
-    /// Largest violation of any constraint of the nonlinear program, unscaled.
+    /// Largest violation of any constraint of the nonlinear program where the last solve ended, unscaled.
     #[serde(with = "FiniteOrNull")]
     pub constraint_violation: f64,
+    /// By how much the last solve's point misses the conditions of optimality, computed apart from the
+    /// optimizer; absent in files of earlier versions, and where the problem is not defined at the point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimality: Option<OptimalityRecord>,
     /// The duration that was chosen, s, where the scenario leaves it free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
@@ -123,6 +128,21 @@ pub struct AttemptRecord {
     pub seconds: f64,
 }
 
+/// By how much a point misses the first-order conditions of optimality: maximum norms, of the problem in the
+/// planner's units, without any scaling by the optimizer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OptimalityRecord {
+    /// Of the gradient of the Lagrangian, over its measure s_d (Wächter & Biegler 2006, eq. 5).
+    #[serde(with = "FiniteOrNull")]
+    pub stationarity: f64,
+    /// Of the constraints and bounds.
+    #[serde(with = "FiniteOrNull")]
+    pub violation: f64,
+    /// Of the products of distances from bounds and their multipliers, over their measure s_c.
+    #[serde(with = "FiniteOrNull")]
+    pub complementarity: f64,
+}
+
 /// How the optimizer ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -132,6 +152,8 @@ pub enum Status {
     Solved,
     /// Converged to the looser, acceptable tolerance.
     Acceptable,
+    /// Converged by the optimizer's account, but not by residuals that were computed apart from it.
+    Unconfirmed,
     /// Converged to a point of locally least infeasibility.
     Infeasible,
     /// Stopped by the iteration limit.
@@ -155,7 +177,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Whether the plan converged, and so deserves a check.
+    /// Whether the plan converged.
     pub fn is_acceptable(self) -> bool {
         matches!(self, Self::Solved | Self::Acceptable)
     }
@@ -246,6 +268,11 @@ pub struct IterationRecord {
 }
 
 impl Solution {
+    /// Whether there is a plan to deliver: one that converged, or one that did not, and passes every check.
+    pub fn has_plan(&self) -> bool {
+        self.status.is_acceptable() || self.verification.passed
+    }
+
     /// The largest attitude error at the end and at waypoints: the norm of its vector part, and its angle, deg.
     pub fn largest_miss(&self) -> (f64, f64) {
         let waypoints = self.waypoints.iter();

@@ -208,6 +208,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         objective: objective(scenario, trajectory),
         iterations: 7,
         constraint_violation: f64::NAN,
+        optimality: None,
         duration_s: None,
         terminal: Terminal::reached(scenario, trajectory),
         waypoints: WaypointRecord::reached(scenario, trajectory),

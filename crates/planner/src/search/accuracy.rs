@@ -56,6 +56,7 @@ impl Search<'_> {
             let substeps = self.model.asked_functions().substeps();
             let Some(more) = more_substeps(substeps, error_rad, allowed_rad) else { break };
             self.model.take_substeps(more)?;
+            self.keep(&solution);
             let settings = settings::delivered(self.scenario);
             let on_iteration = stoppable(self.on_iteration, &self.stop);
             let mut again = self.model.refine(grid, &[], solution, &settings, on_iteration)?;

@@ -152,6 +152,7 @@ impl Search<'_> {
         let on_iteration = stoppable(self.on_iteration, &self.stop);
         let mut again = self.model.solve(grid, guess, &settings, on_iteration)?;
         self.attempts.append(&mut again.attempts);
+        self.keep(&again);
         Ok(again.status.is_success().then_some(again))
     }
 

@@ -17,6 +17,7 @@ mod between_nodes;
 mod grids;
 mod hold;
 mod hops;
+mod incumbents;
 mod model;
 mod negative_curvature;
 mod portfolio;
@@ -41,6 +42,7 @@ use batch::Batch;
 use grids::Ranking;
 
 pub(crate) use accuracy::substeps_of_spin;
+pub(crate) use incumbents::Motion;
 pub(crate) use model::Model;
 
 /// How many coarse solutions are carried to the asked grid, at most, until one gets there.
@@ -74,6 +76,8 @@ pub(crate) struct Search<'a> {
     earlier: Option<Earlier<'a>>,
     /// What ranking the initial guesses led to, the best first.
     coarse: Vec<OcpSolution>,
+    /// Where solves of the asked grid ended, but for the last.
+    kept: Vec<Motion>,
     notes: Vec<String>,
     attempts: Vec<Attempt>,
     trace: Duration,
@@ -98,6 +102,8 @@ pub(crate) struct Found {
     pub(crate) is_minimum: bool,
     /// Whether the caller stopped the search.
     pub(crate) is_interrupted: bool,
+    /// Motions on the asked grid that may be plans, where the search did not end with one.
+    pub(crate) incumbents: Vec<Motion>,
     /// What a reader of the plan should know.
     pub(crate) notes: Vec<String>,
     /// Every attempt to solve, in order.
@@ -111,9 +117,9 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// The duration as a share of the longest, where it was free.
-    pub(crate) fn duration_share(&self) -> Option<f64> {
-        self.coordinates.duration().map(|index| self.solution.states.row(0)[index])
+    /// The duration of a motion as a share of the longest, where it was free.
+    pub(crate) fn duration_share(&self, motion: &Motion) -> Option<f64> {
+        self.coordinates.duration().map(|index| motion.states.row(0)[index])
     }
 }
 
@@ -149,6 +155,7 @@ impl<'a> Search<'a> {
             on_iteration,
             earlier,
             coarse: Vec::new(),
+            kept: Vec::new(),
             notes: Vec::new(),
             attempts: Vec::new(),
             trace: started.elapsed(),
@@ -184,7 +191,9 @@ impl<'a> Search<'a> {
                 self.finished(solution)?
             }
         };
+        let has_plan = solution.status.is_success() && !self.is_interrupted();
         Ok(Found {
+            incumbents: if has_plan { Vec::new() } else { self.incumbents(&solution) },
             solution,
             is_minimum,
             is_interrupted: self.is_interrupted(),
@@ -313,6 +322,7 @@ impl<'a> Search<'a> {
         let on_iteration = stoppable(self.on_iteration, &self.stop);
         let mut solution = self.model.refine(grid, &meshes, start, &settings, on_iteration)?;
         self.attempts.append(&mut solution.attempts);
+        self.keep(&solution);
         let has_arrived = solution.controls.len() == grid.steps();
         Ok((has_arrived && solution.status.is_success()).then_some(solution))
     }

@@ -59,7 +59,7 @@ fn coarse_tolerance(scenario: &Scenario) -> f64 {
 
 /// Of a solve whose solution is only the start of another one.
 pub(super) fn intermediate(scenario: &Scenario) -> Settings {
-    Settings { optimizer: Optimizer::Interior, ..delivered(scenario) }
+    Settings { optimizer: Optimizer::Interior, judges: false, ..delivered(scenario) }
 }
 
 /// Of a solve that ends in a plan.
@@ -77,6 +77,7 @@ pub(crate) fn delivered(scenario: &Scenario) -> Settings {
             nlp_scaling: NlpScaling::None,
             ..plain.ipopt
         },
+        judges: true,
         ..plain
     }
 }
@@ -103,7 +104,7 @@ pub(crate) fn from_own_plan(delivered: Settings) -> Settings {
 /// by itself, as the paper used it.
 pub(super) fn from_constant_guess(scenario: &Scenario) -> Settings {
     match scenario.solver().is_paper() {
-        true => plain(scenario),
+        true => Settings { judges: true, ..plain(scenario) },
         false => delivered(scenario),
     }
 }
