@@ -65,6 +65,7 @@ fn the_fastest_turn_by_a_wheel_is_bang_bang() {
             file.horizon.duration_s = Duration::Free(DurationRange { min: 0.5, max: 60.0 });
             file.horizon.steps = 400.0;
             file.weights = file::Weights::default();
+            file.end = None;
         });
         let posture = &scenario.initial().joint_angles_rad;
         let inertia = scenario.system().model.locked_inertia(posture)[(2, 2)];
@@ -106,7 +107,7 @@ fn arm_and_wheels_share_a_slew() {
         assert_eq!([1, 3].map(|wheel| interval.wheel_torques_n_m[wheel]), [0.0; 2]);
     }
     let used = planned.trajectory.nodes().iter().map(|node| node.wheel_momenta_n_m_s[0].abs());
-    assert!(used.fold(0.0, f64::max) > 0.05, "the wheels are used");
+    assert!(used.fold(0.0, f64::max) > 0.01, "the wheels are used");
     // Two wheels more are never in the way.
     let alone = plan(&shipped("slew_4dof")).unwrap().solution.objective;
     let resting = varied(&scenario, |file| file.wheels[3].initial_momentum_n_m_s = None);

@@ -81,7 +81,7 @@ fn surroundings_are_refused_by_name() {
             "environment.gravity_gradient.elements",
             "one of them",
         ),
-        (json!({ "torque_body_n_m": [0, 1e9, 0] }), "environment.torque_body_n_m", "1000000000"),
+        (json!({ "torque_body_n_m": [0, 1e9, 0] }), "environment.torque_body_n_m", "found 1e9"),
         (json!({ "drag": 1 }), "environment", "drag"),
     ];
     for (environment, field, expected) in cases {

@@ -11,7 +11,7 @@ use crate::ledger::{Ledger, Worst};
 use crate::model::{BaseAcceleration, Motion, State};
 use crate::requirements::Requirements;
 
-/// How far it may be off, as a share of the largest there is or the arm alone has.
+/// How far it may be off, as a share of the largest that there is at the start, has come, or arm or wheels alone have.
 const MOMENTUM: f64 = 1e-4;
 
 pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
@@ -37,13 +37,15 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
     for (node, came) in trajectory.nodes().iter().zip(came) {
         let state = State::of_node(node);
         let (momentum, center) = momentum_and_center(&state);
-        let momentum = momentum + of_wheels(&state, &asked.wheels.sum(&node.wheel_momenta_n_m_s));
+        let in_store = asked.wheels.sum(&node.wheel_momenta_n_m_s);
+        let momentum = momentum + of_wheels(&state, &in_store);
         changes.push((momentum - first_momentum - came).norm());
         let distance_m = (center - first_center).norm();
         wander.at_most(distance_m, asked.tolerances.position_m, None, Some(node.time_s));
         // The arm's momentum alone, as if the base stood still.
         let held = State { angular_rate: Vector3::zeros(), velocity: Vector3::zeros(), ..state };
-        scale = scale.max(momentum_and_center(&held).0.norm()).max(momentum.norm());
+        let of_arm = momentum_and_center(&held).0;
+        scale = [of_arm, in_store, came].iter().map(Vector3::norm).fold(scale, f64::max);
     }
     let scale = if scale > 0.0 { scale } else { 1.0 };
     for (node, change) in trajectory.nodes().iter().zip(changes) {
