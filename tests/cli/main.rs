@@ -5,6 +5,7 @@ mod bad_input;
 mod browser;
 #[cfg(target_os = "linux")]
 mod color;
+mod compare;
 mod completions;
 mod crates;
 mod documents;

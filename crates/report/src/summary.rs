@@ -150,7 +150,7 @@ pub(crate) fn check_rows(checks: &[Check]) -> Vec<[String; 6]> {
 
 /// One aligned row a check, headed.
 fn table(checks: &[Check]) -> Vec<String> {
-    aligned(&check_rows(checks), [false, false, true, true, true, false])
+    aligned(&check_rows(checks), &[false, false, true, true, true, false])
 }
 
 fn check_cells(check: &Check) -> [String; 6] {

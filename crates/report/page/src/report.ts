@@ -6,6 +6,7 @@ import { Motion } from "./motion";
 import { fillNumbers } from "./numbers";
 import { Player } from "./player";
 import { Plots } from "./plots";
+import { panels } from "./report-panels";
 import { LAYERS, Stage, type FrameName } from "./stage";
 import { Transport } from "./transport";
 import { VIEWS, type ViewName } from "./viewport";
@@ -14,8 +15,8 @@ const data = readData();
 const motion = new Motion(data);
 const player = new Player(motion.duration);
 fillNumbers(data);
-const plots = new Plots(byId("plots"), data, motion, player);
-const transport = new Transport(player, motion);
+const plots = new Plots(byId("plots"), panels(data, motion), motion.time, player);
+const transport = new Transport(player, motion.time);
 const stage = openStage();
 
 function openStage(): Stage | null {
