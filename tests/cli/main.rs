@@ -2,6 +2,8 @@
 
 mod bad_input;
 #[cfg(unix)]
+mod book;
+#[cfg(unix)]
 mod browser;
 #[cfg(target_os = "linux")]
 mod color;
