@@ -166,7 +166,12 @@ fn check_cells(check: &Check) -> [String; 6] {
         false => String::new(),
     };
     [
-        if check.passed { "ok" } else { "FAILED" }.to_owned(),
+        match (check.passed, margin < 0.0) {
+            (true, false) => "ok",
+            (true, true) => "in tolerance",
+            (false, _) => "FAILED",
+        }
+        .to_owned(),
         check.name.clone(),
         short(value),
         format!("{sign} {}{gap}{unit}", short(limit)),

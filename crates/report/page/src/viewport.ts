@@ -68,6 +68,24 @@ export class Viewport {
     this.place(VIEWS[view]);
   }
 
+  /** Looks from a direction; from none that is no direction. */
+  lookFrom(direction: Vector3): void {
+    if (direction.toArray().every(Number.isFinite) && direction.lengthSq() > 0) this.place(direction);
+  }
+
+  /** What is drawn now, a PNG. */
+  picture(): Promise<Blob> {
+    // The drawing buffer is empty again once the browser has shown it.
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((done, fail) => this.renderer.domElement.toBlob(
+      (blob) => { if (blob) done(blob); else fail(new Error("the browser makes no picture")); }, "image/png"));
+  }
+
+  /** What is drawn from now on. */
+  stream(framesPerSecond: number): MediaStream {
+    return this.renderer.domElement.captureStream(framesPerSecond);
+  }
+
   /** Calls when the scene was turned, moved or scaled. */
   onTurn(listener: () => void): void {
     this.controls.addEventListener("change", listener);
