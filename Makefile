@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel bench bench-all starts page fmt lint setup
+.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel book bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -61,6 +61,11 @@ wheels: setup
 wheel: setup
 	cargo build --release --locked
 	scripts/wheel.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# The book in out/book/html: tutorial, guides, theory, references made from the program, all documents. Loads nothing.
+book: setup
+	cargo build --release --locked
+	scripts/book.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
 # Public and random robots, imported and exported again, beside Pinocchio's and MuJoCo's models of them:
 # docs/import.md. Gets a virtual environment of its own.

@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod compare;
 mod completions;
 mod doctor;
 mod envelope;
@@ -72,6 +73,7 @@ enum Command {
     Verify(verify::Arguments),
     Reach(reach::Arguments),
     Report(report::Arguments),
+    Compare(compare::Arguments),
     Explain(explain::Arguments),
     Envelope(envelope::Arguments),
     Power(power::Arguments),
@@ -103,6 +105,7 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Reach(arguments) => reach::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Envelope(arguments) => envelope::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
@@ -138,6 +141,7 @@ impl Command {
             Self::Verify(arguments) => arguments.json,
             Self::Reach(arguments) => arguments.json,
             Self::Report(arguments) => arguments.json,
+            Self::Compare(arguments) => arguments.json,
             Self::Explain(arguments) => arguments.json,
             Self::Envelope(arguments) => arguments.json,
             Self::Power(arguments) => arguments.json,

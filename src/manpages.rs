@@ -1,5 +1,7 @@
 //! `righting manpages`: the help of every command as manual pages.
 
+mod markdown;
+
 use std::io;
 use std::path::PathBuf;
 
@@ -17,7 +19,13 @@ pub struct Arguments {
     /// The folder for the pages, such as ~/.local/share/man/man1; made if missing.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
+    /// Write one page of Markdown instead, commands.md.
+    #[arg(long)]
+    markdown: bool,
 }
+
+/// The page of Markdown.
+const MARKDOWN_FILE: &str = "commands.md";
 
 /// Writes the pages and lists them.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -25,7 +33,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut whole = crate::Arguments::command().disable_help_subcommand(true);
     whole.build();
     let mut files = Vec::new();
-    write(&whole, &folder, &mut files)?;
+    match arguments.markdown {
+        true => files.push(folder.write(MARKDOWN_FILE, markdown::page(&whole).as_bytes())?),
+        false => write(&whole, &folder, &mut files)?,
+    }
     let listed: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
     output::print(&listed)
 }

@@ -41,6 +41,8 @@ pub const ATTITUDE_FILE: &str = "attitude.svg";
 pub const JOINTS_FILE: &str = "joints.svg";
 /// The interactive page.
 pub const REPORT_FILE: &str = "report.html";
+/// The page of plans side by side.
+pub const COMPARE_FILE: &str = "compare.html";
 /// The figure of the clearances.
 pub const CLEARANCES_FILE: &str = "clearances.svg";
 /// The figure of loads beside their limits.

@@ -129,6 +129,11 @@ impl Browser {
         }
     }
 
+    /// Moves the mouse to a place in the window.
+    pub fn move_to(&mut self, [x, y]: [f64; 2]) {
+        self.call("Input.dispatchMouseEvent", json!({ "type": "mouseMoved", "x": x, "y": y }));
+    }
+
     /// Touches an element and draws the finger to the right.
     pub fn swipe(&mut self, selector: &str, distance: f64) {
         let [x, y] = self.place(selector, 0.4);

@@ -144,7 +144,9 @@ fn a_file_where_a_folder_is_expected_is_said_to_be_one() {
         let message = "scenario.json: found a file, expected the folder of a plan";
         assert_said(&run(at, &format!("{command} scenario.json")), message, None);
     }
-    for line in ["export --format npz", "solve scenario.json --out o --warm-start"] {
+    for line in
+        ["compare arm.json", "export --format npz", "solve scenario.json --out o --warm-start"]
+    {
         let message = "arm.json: found a file, expected the folder of a plan";
         assert_said(&run(at, &format!("{line} arm.json")), message, None);
     }

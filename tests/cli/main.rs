@@ -2,9 +2,12 @@
 
 mod bad_input;
 #[cfg(unix)]
+mod book;
+#[cfg(unix)]
 mod browser;
 #[cfg(target_os = "linux")]
 mod color;
+mod compare;
 mod completions;
 mod crates;
 mod documents;

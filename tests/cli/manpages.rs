@@ -5,7 +5,8 @@ use std::process::{Command, Stdio};
 
 use crate::program::{files_in, folder_with, righting};
 
-const PAGES: [&str; 22] = [
+const PAGES: [&str; 23] = [
+    "righting-compare.1",
     "righting-completions.1",
     "righting-doctor.1",
     "righting-envelope.1",

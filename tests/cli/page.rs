@@ -122,6 +122,78 @@ fn the_page_works_on_a_phone() {
     assert_eq!(page.complaints(), [] as [String; 0]);
 }
 
+/// Small numbers that JavaScript counts bytes in.
+fn size_of(page: &mut Browser, blob: &str) -> (String, u64) {
+    let found = page.value(&format!("righting.{blob}().then(blob => [blob.type, blob.size])"));
+    (found[0].as_str().expect("a type").to_owned(), found[1].as_u64().expect("a size"))
+}
+
+#[test]
+fn the_page_reads_plots_gives_link_picture_and_video_and_helps() {
+    let folder = folder_with(&small_slew());
+    assert_eq!(solve(folder.path()).code, 0);
+    let out = folder.path().join("out");
+    let plan = verify_directory(&out).expect("a plan");
+    for size in [[1400, 900], [390, 844], [844, 390]] {
+        let mut page = Browser::open(&out.join("report.html"), size);
+        assert_eq!(page.value("document.documentElement.scrollWidth <= innerWidth"), true);
+
+        // Values under the pointer, and the player's again when it has left.
+        page.value("document.querySelector('.u-over').scrollIntoView({ block: 'end' })");
+        let readout =
+            "document.querySelectorAll('#plots figure')[2].querySelector('.chip b').textContent";
+        let at_start = page.value(readout);
+        let place = page.value(
+            "(r => [r.x + 0.5 * r.width, r.y + 0.5 * r.height])\
+             (document.querySelector('.u-over').getBoundingClientRect())",
+        );
+        let place = numbers(&place);
+        page.move_to([place[0], place[1]]);
+        let middle = &plan.trajectory.nodes()[plan.trajectory.steps() / 2];
+        let pointed = page.value(readout);
+        let expected = middle.joint_angles_rad[0].to_degrees();
+        let shown: f64 = pointed.as_str().and_then(|text| text.parse().ok()).expect("a number");
+        assert!((shown - expected).abs() < 0.05 * expected.abs() + 0.02, "{shown} {expected}");
+        assert_eq!(page.value("document.querySelector('.at').textContent.endsWith(' s')"), true);
+        assert_eq!(page.value("righting.state().time_s"), 0.0);
+        page.move_to([1.0, 1.0]);
+        assert_eq!(page.value(readout), at_start);
+
+        // The link opens what is shown.
+        page.value("scrollTo(0, 0), righting.seek(7)");
+        page.click("#view-y", 0.5);
+        page.click("#frame-body", 0.5);
+        let link = page.value("righting.link()");
+        let hash =
+            link.as_str().and_then(|link| link.split_once('#')).expect("a hash").1.to_owned();
+        page.value("righting.seek(0), righting.setFrame('inertial')");
+        page.click("#view-iso", 0.5);
+        page.value(&format!("location.hash = '{hash}', 0"));
+        page.wait_until("righting.state().time_s === 7");
+        let state = page.value("righting.state()");
+        assert_eq!((state["frame"].as_str(), state["time_s"].as_f64()), (Some("body"), Some(7.0)));
+        let from = numbers(&state["from"]);
+        assert!((from[1] - 1.0).abs() < 1e-3, "{from:?}");
+
+        let (kind, bytes) = size_of(&mut page, "picture");
+        assert!(kind == "image/png" && bytes > 2_000, "{kind} {bytes}");
+        page.value("righting.setSpeed(5)");
+        let (kind, bytes) = size_of(&mut page, "video");
+        assert!(kind == "video/webm" && bytes > 1_000, "{kind} {bytes}");
+        assert_eq!(page.value("righting.state().time_s"), 20.0);
+
+        page.click("#open-help", 0.5);
+        assert_eq!(page.value("document.querySelector('#help').open"), true);
+        page.value("document.querySelector('#help').close()");
+
+        // Every check can be read without scrolling sideways.
+        page.value("document.querySelector('#checks').closest('details').open = true, 0");
+        let fits = "(t => t.scrollWidth <= t.parentElement.clientWidth)(document.querySelector('#checks'))";
+        assert_eq!(page.value(fits), true, "{size:?}");
+        assert_eq!(page.complaints(), [] as [String; 0]);
+    }
+}
+
 #[test]
 fn the_page_of_a_sweep_draws_every_case_and_says_which_is_which() {
     let mut mixed = small_sweep(2);

@@ -118,6 +118,33 @@ fn records_are_gone_on_with_only_when_asked() {
 }
 
 #[test]
+fn arms_are_compared_in_one_sweep_by_their_names() {
+    let study = root().join("scenarios/sweeps/three_arms.json");
+    let mut study: Value =
+        serde_json::from_str(&std::fs::read_to_string(study).expect("shipped")).expect("JSON");
+    study["scenario"]["horizon"] = json!({ "duration_s": 60, "steps": 60 });
+    study["vary"] = json!([study["vary"][0], { "field": "maneuver.angle_deg", "values": [20] }]);
+    let folder = folder_with_sweep(&study);
+    std::os::unix::fs::symlink(root().join("scenarios"), folder.path().join("scenarios"))
+        .expect("a link");
+    let text = study.to_string().replace("../systems", "scenarios/systems");
+    std::fs::write(folder.path().join("sweep.json"), text).expect("writable");
+    let run = sweep(folder.path(), "out", &["--json"]);
+    assert_eq!((run.code, run.json()["succeeded"].as_u64()), (0, Some(3)), "{}", run.stderr);
+    let table = results(folder.path(), "out");
+    for (row, arm) in table[1..].iter().zip(["single_link_2dof", "xlink_4dof", "canadarm2"]) {
+        assert!(
+            row.contains(&format!(",{arm},\"[0,0")) && row.contains(",20,solved,true,"),
+            "{row}"
+        );
+    }
+    // Another machine needs nothing but the folder of the sweep.
+    std::fs::remove_file(folder.path().join("scenarios")).expect("removable");
+    let merged = righting(folder.path(), &["sweep", "merge", "out", "--json"]);
+    assert_eq!(merged.json()["recorded"], 3, "{}", merged.stderr);
+}
+
+#[test]
 fn cases_that_fail_are_results_grouped_by_cause() {
     let mut failing = small_sweep(2);
     failing["vary"] = json!([{ "zip": [

@@ -168,6 +168,14 @@ impl PowerProfile {
         self.instants.iter().map(|instant| instant.weight_s * mechanical_w(instant)).sum()
     }
 
+    /// Effort of the joints ∫ ‖q̈‖² dt, rad²/s³; exact, since accelerations are at most linear in an interval.
+    pub fn effort_rad2_s3(&self) -> f64 {
+        let squared = |instant: &Instant| -> f64 {
+            instant.joint_accelerations_rad_s2.iter().map(|u| u * u).sum()
+        };
+        self.instants.iter().map(|instant| instant.weight_s * squared(instant)).sum()
+    }
+
     /// Kinetic energy of the last node less that of the first, J: what [`work_j`](Self::work_j) must
     /// be.
     pub fn kinetic_energy_change_j(&self) -> f64 {

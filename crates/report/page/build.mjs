@@ -27,7 +27,7 @@ const banner = `/*! Generated from sources ${digest.digest("hex")} */`;
 
 const { outputFiles } = await build({
   absWorkingDir: root,
-  entryPoints: ["src/report.ts", "src/slews.ts"],
+  entryPoints: ["src/report.ts", "src/compare.ts", "src/slews.ts"],
   outdir: "dist",
   bundle: true,
   minify: true,

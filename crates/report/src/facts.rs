@@ -132,10 +132,18 @@ fn used_limit(check: &Check) -> UsedLimit {
         Sense::AtMost => "\u{2264}",
         Sense::AtLeast => "\u{2265}",
     };
+    let beyond = match check.sense {
+        Sense::AtMost => value - limit,
+        Sense::AtLeast => limit - value,
+    };
+    let said = match beyond > 0.0 {
+        true => format!(", {} beyond", short(beyond)),
+        false => String::new(),
+    };
     let name = check.name.strip_suffix(" between nodes").unwrap_or(&check.name);
     UsedLimit {
         name: name.to_owned(),
-        value: format!("{} {sign} {} {unit}", short(value), short(limit)),
+        value: format!("{} {sign} {} {unit}{said}", short(value), short(limit)),
         place: place(check),
         share: if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 },
     }

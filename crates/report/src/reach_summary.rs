@@ -92,7 +92,7 @@ fn table(reach: &Reach) -> Vec<String> {
         ]
     });
     let rows: Vec<[String; 9]> = std::iter::once(heads.map(str::to_owned)).chain(rows).collect();
-    aligned(&rows, [true, false, true, true, true, true, true, false, false])
+    aligned(&rows, &[true, false, true, true, true, true, true, false, false])
 }
 
 fn start(tried: &Try) -> String {

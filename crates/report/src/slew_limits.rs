@@ -1,6 +1,7 @@
 //! `slew_limits.svg`: how far slews go as something else than their axis varies.
 
 use righting_sweep::{Kind, SlewLimit, Slews};
+use serde_json::{Value, json};
 
 use crate::axis::Range;
 use crate::chart::{Chart, Labels};
@@ -16,8 +17,8 @@ const MOST_PLACES: usize = 100;
 const COLORS: [&str; 5] = [style::MAGNITUDE, style::Z, style::Y, style::X, style::W];
 
 /// The figure of a sweep over slew angles and one or two numbers more, as an SVG document: the largest
-/// angle up to which all succeed, over the number that varies last, one curve a value of the one before.
-/// Curves are means over everything else (such as axes), bars the least and the most; of more than 100
+/// angle up to which all succeed, over the number that varies last, one curve a system, or a value of the number
+/// before. Curves are means over everything else (such as axes), bars the least and the most; of more than 100
 /// values that vary last, such as random ones, neighbours are put together. None if no number varies.
 pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
     let varying = |&(i, _): &(usize, _)| !distinct(slews, i).is_empty();
@@ -29,8 +30,7 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
         .filter(varying)
         .collect();
     let (&(x_at, x_column), rest) = numbers.split_last()?;
-    let few = |&(at, _): &(usize, _)| distinct(slews, at).len() <= MOST_CURVES;
-    let series = rest.last().copied().filter(few);
+    let series = curves(slews, rest.last().map(|&(at, _)| at));
     let all_xs = distinct(slews, x_at);
     let together = all_xs.len().div_ceil(MOST_PLACES);
     let xs = Range::of(all_xs.iter().copied())?.padded(1e-9);
@@ -43,17 +43,14 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
     }
     let labels = Labels { title: name, subtitle: &subtitle, x: &x_column.name, y: "Angle [deg]" };
     let mut chart = Chart::new(&labels, xs, Range { low: 0.0, high: 1.06 * highest });
-    let values = series.map_or(vec![f64::NAN], |(at, _)| distinct(slews, at));
     let mut named = 0.0;
-    for (i, value) in values.iter().enumerate().rev() {
+    for (i, curve) in series.iter().enumerate().rev() {
         let color = COLORS[i % COLORS.len()];
-        let of_series =
-            |limit: &&SlewLimit| series.is_none_or(|(at, _)| number(limit, at) == *value);
-        let shift = xs.span() * 0.006 * (i as f64 - 0.5 * (values.len() - 1) as f64);
+        let shift = xs.span() * 0.006 * (i as f64 - 0.5 * (series.len() - 1) as f64);
         let mut reached: Vec<[f64; 2]> = slews
             .limits
             .iter()
-            .filter(of_series)
+            .filter(|limit| curve.includes(limit))
             .map(|limit| [number(limit, x_at), limit.all_up_to_deg])
             .collect();
         reached.sort_by(|[a, _], [b, _]| a.total_cmp(b));
@@ -74,12 +71,57 @@ pub fn slew_limits_svg(name: &str, slews: &Slews) -> Option<String> {
             chart.svg.dot(at, 3.5, color, Stroke { color: style::PAPER, width: 0.5, dash: "" });
         }
         chart.curve(&points, Stroke { color, width: style::CURVE_WIDTH, dash: "" });
-        if let (Some(&[_, last]), Some((_, column))) = (points.last(), series) {
-            let text = format!("{} {}", column.name, drawn(*value));
-            named = chart.name(last, named, color, &text);
+        if let (Some(&[_, last]), Some(_)) = (points.last(), curve.column) {
+            named = chart.name(last, named, color, &curve.name);
         }
     }
     Some(chart.svg.finish())
+}
+
+/// A curve: the slews with one setting of a column, or all of them.
+struct Curve {
+    column: Option<usize>,
+    setting: Value,
+    name: String,
+}
+
+impl Curve {
+    fn includes(&self, limit: &SlewLimit) -> bool {
+        let Some(at) = self.column else { return true };
+        match self.setting.as_f64() {
+            Some(value) => number(limit, at) == value,
+            None => limit.settings[at] == self.setting,
+        }
+    }
+}
+
+/// One curve a system, where systems vary, or a value of the column `number`; one for all where there are too
+/// many of either.
+fn curves(slews: &Slews, number: Option<usize>) -> Vec<Curve> {
+    let named = slews.columns.iter().position(|column| column.kind == Kind::Named);
+    let of_named = named.map(|at| {
+        let mut curves: Vec<Curve> = Vec::new();
+        for limit in &slews.limits {
+            let setting = &limit.settings[at];
+            if curves.iter().all(|curve| curve.setting != *setting) {
+                let name = setting["name"].as_str().unwrap_or_default().to_owned();
+                curves.push(Curve { column: Some(at), setting: setting.clone(), name });
+            }
+        }
+        curves
+    });
+    let of_number = number.map(|at| {
+        let values = distinct(slews, at).into_iter();
+        let name = |value| format!("{} {}", slews.columns[at].name, drawn(value));
+        values
+            .map(|value| Curve { column: Some(at), setting: json!(value), name: name(value) })
+            .collect()
+    });
+    let few = |curves: &Vec<Curve>| (2..=MOST_CURVES).contains(&curves.len());
+    of_named
+        .filter(few)
+        .or(of_number.filter(few))
+        .unwrap_or_else(|| vec![Curve { column: None, setting: Value::Null, name: String::new() }])
 }
 
 fn number(limit: &SlewLimit, column: usize) -> f64 {

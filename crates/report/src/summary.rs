@@ -155,7 +155,7 @@ pub(crate) fn check_rows(checks: &[Check]) -> Vec<[String; 6]> {
 
 /// One aligned row a check, headed.
 fn table(checks: &[Check]) -> Vec<String> {
-    aligned(&check_rows(checks), [false, false, true, true, true, false])
+    aligned(&check_rows(checks), &[false, false, true, true, true, false])
 }
 
 fn check_cells(check: &Check) -> [String; 6] {
@@ -171,7 +171,12 @@ fn check_cells(check: &Check) -> [String; 6] {
         false => String::new(),
     };
     [
-        if check.passed { "ok" } else { "FAILED" }.to_owned(),
+        match (check.passed, margin < 0.0) {
+            (true, false) => "ok",
+            (true, true) => "in tolerance",
+            (false, _) => "FAILED",
+        }
+        .to_owned(),
         check.name.clone(),
         short(value),
         format!("{sign} {}{gap}{unit}", short(limit)),

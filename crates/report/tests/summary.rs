@@ -86,4 +86,5 @@ fn a_limit_exceeded_within_its_tolerance_says_so() {
     check.tolerance = 1e-3;
     let text = verification_summary(&solution);
     assert!(text.contains("joint 2 at 12.3 s (± 0.0573 is tolerated)"), "{text}");
+    assert!(text.contains("\n  in tolerance  "), "{text}");
 }

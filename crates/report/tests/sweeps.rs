@@ -88,6 +88,23 @@ fn limits_are_drawn_over_the_number_that_varies() {
 }
 
 #[test]
+fn limits_of_arms_are_curves_of_their_own_with_their_names() {
+    let mut arms = slews();
+    arms.columns.push(Column { kind: Kind::Named, ..arms.columns[1].clone() });
+    let limits = std::mem::take(&mut arms.limits);
+    for name in ["short arm", "long arm"] {
+        for limit in &limits {
+            let mut limit = limit.clone();
+            limit.settings.push(json!({ "name": name, "links": [] }));
+            arms.limits.push(limit);
+        }
+    }
+    let svg = slew_limits_svg("limits", &arms).expect("a number varies");
+    assert_eq!(count(&svg, "circle"), 2 * 3);
+    assert!(svg.contains("short arm") && svg.contains("long arm"), "{svg}");
+}
+
+#[test]
 fn limits_of_many_random_values_are_put_together() {
     let mut many = slews();
     let settings = |time: usize| vec![json!([1, 0, 0]), json!(time)];

@@ -84,6 +84,22 @@ pub struct LimitRecord {
     pub time_s: Option<f64>,
 }
 
+impl LimitRecord {
+    /// How far the value is on the right side of its bound, in their unit; negative beyond it.
+    pub fn margin(&self) -> f64 {
+        match self.sense {
+            Sense::AtMost => self.bound - self.value,
+            Sense::AtLeast => self.value - self.bound,
+        }
+    }
+
+    /// What is limited, whether at the nodes or between them.
+    pub fn quantity(&self) -> &str {
+        let name = self.name.strip_suffix(" between nodes");
+        name.or(self.name.strip_suffix(" at nodes")).unwrap_or(&self.name)
+    }
+}
+
 /// Which side of its limit a value must be on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -160,6 +176,20 @@ fn told_apart(a: f64, b: f64) -> [String; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_margin_is_negative_beyond_the_bound_whichever_side_that_is() {
+        let margin = |sense, value| {
+            let name = "joint angle between nodes".to_owned();
+            let (subject, unit, time_s) = (None, "rad".to_owned(), None);
+            let limit = LimitRecord { name, subject, value, bound: -1.5, sense, unit, time_s };
+            assert_eq!(limit.quantity(), "joint angle");
+            limit.margin()
+        };
+        assert_eq!(margin(Sense::AtLeast, -1.0), 0.5);
+        assert_eq!(margin(Sense::AtLeast, -2.0), -0.5);
+        assert_eq!(margin(Sense::AtMost, -1.0), -0.5);
+    }
 
     #[test]
     fn a_value_just_beyond_its_limit_is_not_printed_as_the_limit() {

@@ -105,7 +105,7 @@ pub(crate) fn heads_of(column: &Column) -> Vec<Head> {
     let Column { name, kind, .. } = column;
     match *kind {
         Kind::Number => vec![head(name, CellKind::Number)],
-        Kind::Text => vec![head(name, CellKind::Text)],
+        Kind::Named | Kind::Text => vec![head(name, CellKind::Text)],
         Kind::Vector(3) => {
             ["x", "y", "z"].map(|axis| head(&format!("{name}_{axis}"), CellKind::Number)).to_vec()
         }
@@ -120,6 +120,11 @@ pub(crate) fn cells_of(column: &Column, setting: &Value) -> Vec<Cell> {
     match (column.kind, setting) {
         (Kind::Number, value) => vec![number(value)],
         (Kind::Vector(_), Value::Array(elements)) => elements.iter().map(number).collect(),
+        (Kind::Named, Value::Object(fields)) => {
+            vec![Cell::Text(
+                fields.get("name").and_then(Value::as_str).unwrap_or_default().to_owned(),
+            )]
+        }
         (_, Value::String(text)) => vec![Cell::Text(text.clone())],
         (_, other) => vec![Cell::Text(other.to_string())],
     }

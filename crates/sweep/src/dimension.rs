@@ -1,5 +1,7 @@
 //! One dimension of a sweep, checked: fields that change together.
 
+use std::collections::HashMap;
+
 use righting_scenario::Error;
 use righting_scenario::json::{Location, shown};
 use serde_json::{Value, json};
@@ -39,7 +41,14 @@ pub(crate) struct Variation {
 impl Dimension {
     pub fn from_file(dimension: &file::Dimension, place: &Location) -> Result<Self, Error> {
         let Some(zipped) = &dimension.zip else {
-            return Ok(Self { variations: vec![Variation::from_file(dimension, place)?] });
+            let alone = Self { variations: vec![Variation::from_file(dimension, place)?] };
+            return match alone.first_repeated() {
+                Some((index, _)) => {
+                    let again = format!("{} again", shown(&alone.variations[0].get(index)));
+                    Err(place.key("values").index(index).refuse(again, "each value once"))
+                }
+                None => Ok(alone),
+            };
         };
         let alone = file::Dimension { zip: Some(zipped.clone()), ..Default::default() };
         if *dimension != alone {
@@ -64,7 +73,27 @@ impl Dimension {
             }
             variations.push(variation);
         }
-        Ok(Self { variations })
+        let zipped = Self { variations };
+        match zipped.first_repeated() {
+            Some((index, earlier)) => {
+                let found = format!("settings {} the same as settings {}", index + 1, earlier + 1);
+                Err(place.refuse(found, "each combination once"))
+            }
+            None => Ok(zipped),
+        }
+    }
+
+    /// The first setting that an earlier one is the same as, and that one; none where settings are drawn.
+    fn first_repeated(&self) -> Option<(usize, usize)> {
+        if !self.variations.iter().all(|variation| variation.settings.are_listed()) {
+            return None;
+        }
+        let mut seen: HashMap<String, usize> = HashMap::new();
+        (0..self.len()).find_map(|index| {
+            let settings = self.variations.iter().map(|variation| variation.get(index));
+            let earlier = seen.insert(Value::from_iter(settings).to_string(), index)?;
+            Some((index, earlier))
+        })
     }
 
     /// Number of settings.

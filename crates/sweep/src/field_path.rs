@@ -46,6 +46,24 @@ impl FieldPath {
         &self.text
     }
 
+    /// Whether it goes on from an element of an array, or ends in one.
+    pub fn reaches_into_arrays(&self) -> bool {
+        self.steps.iter().any(|step| !matches!(step, Step::Key(_)))
+    }
+
+    /// Puts into `root` what `resolved` has at the first key of this path that `root` lacks.
+    pub fn fill_in(&self, root: &mut Value, resolved: &Value) {
+        let (mut here, mut there) = (root, resolved);
+        for step in &self.steps {
+            let Step::Key(key) = step else { return };
+            let (Some(entries), Some(default)) = (here.as_object_mut(), there.get(key)) else {
+                return;
+            };
+            here = entries.entry(key.clone()).or_insert_with(|| default.clone());
+            there = default;
+        }
+    }
+
     /// Changes the field, or each of them. An object that is not there yet is made; the error says
     /// what stands in the way.
     pub fn change(
@@ -110,6 +128,20 @@ mod tests {
             })
             .unwrap();
         assert_eq!(root["links"], json!([{ "m": 2.0 }, { "m": 18.0 }]));
+    }
+
+    #[test]
+    fn what_is_not_written_is_filled_in_from_its_first_key_on() {
+        let resolved = json!({ "initial": { "joint_rates_deg_s": [0, 0] }, "weights": { "control": 1, "time": 2 } });
+        let filled = |path: &str| {
+            let mut root = json!({ "initial": {}, "links": [{}] });
+            FieldPath::parse(path).unwrap().fill_in(&mut root, &resolved);
+            root
+        };
+        let rates = json!({ "initial": { "joint_rates_deg_s": [0, 0] }, "links": [{}] });
+        assert_eq!(filled("initial.joint_rates_deg_s[1]"), rates);
+        assert_eq!(filled("weights.control")["weights"], resolved["weights"]);
+        assert_eq!(filled("links[0].mass_kg"), json!({ "initial": {}, "links": [{}] }));
     }
 
     #[test]

@@ -72,7 +72,7 @@ pub struct Dimension {
     /// Whether the settings are factors on the base scenario's number (or numbers) there.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub relative: bool,
-    /// A list.
+    /// A list; of the field `system` systems, or paths of system files relative to this file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub values: Option<Vec<Value>>,
     /// Evenly spaced numbers, both ends included.
@@ -91,7 +91,8 @@ pub struct Dimension {
     /// Random unit vectors, all directions alike.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub directions: Option<Directions>,
-    /// Fields that change together, first setting with first setting: each with as many.
+    /// Fields that change together, first setting with first setting: each with as many. Settings may repeat,
+    /// but no combination of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub zip: Option<Vec<Dimension>>,
 }

@@ -33,6 +33,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod base;
 mod case;
 mod cells;
 mod dimension;
@@ -55,6 +56,7 @@ mod shard_run;
 mod slews;
 mod summary;
 mod sweep;
+mod system_values;
 mod table;
 mod table_columns;
 pub mod worker;

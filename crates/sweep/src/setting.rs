@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use righting_analysis::envelope::fibonacci;
 use righting_scenario::Error;
-use righting_scenario::json::{Bounds, Location, shown};
+use righting_scenario::json::{Bounds, Location};
 use serde_json::{Value, json};
 
 use crate::draw::Draws;
@@ -26,6 +26,8 @@ pub enum Kind {
     Number,
     /// Arrays of so many numbers.
     Vector(usize),
+    /// Objects such as systems, each with another `name`, by which a table shows them.
+    Named,
     /// Anything else, which a table shows as text.
     Text,
 }
@@ -114,9 +116,18 @@ impl Settings {
             Self::Listed(values) => {
                 let first = kind_of(&values[0]);
                 let alike = values.iter().all(|value| kind_of(value) == first);
-                if alike { first } else { Kind::Text }
+                match (alike, are_named(values)) {
+                    (_, true) => Kind::Named,
+                    (true, false) => first,
+                    (false, false) => Kind::Text,
+                }
             }
         }
+    }
+
+    /// Whether they are a list, of which any may be the same as another.
+    pub fn are_listed(&self) -> bool {
+        matches!(self, Self::Listed(_))
     }
 
     /// Setting `index` of [`len`](Self::len).
@@ -145,6 +156,12 @@ fn kind_of(value: &Value) -> Kind {
     }
 }
 
+/// Whether all are objects with names of which none appears twice.
+fn are_named(values: &[Value]) -> bool {
+    let mut seen = HashSet::new();
+    values.iter().all(|value| value["name"].as_str().is_some_and(|name| seen.insert(name)))
+}
+
 fn count_of(count: u64, most: f64, place: &Location) -> Result<usize, Error> {
     Ok(place.within(count as f64, Bounds::Whole(1.0, most))? as usize)
 }
@@ -153,13 +170,6 @@ fn listed(values: &[Value], place: &Location) -> Result<Settings, Error> {
     if !(1..=MOST_LISTED as usize).contains(&values.len()) {
         let expected = format!("1 to {MOST_LISTED}");
         return Err(place.refuse(format!("{} values", values.len()), expected));
-    }
-    let mut seen = HashSet::new();
-    for (index, value) in values.iter().enumerate() {
-        if !seen.insert(value.to_string()) {
-            let again = format!("{} again", shown(value));
-            return Err(place.index(index).refuse(again, "each value once"));
-        }
     }
     Ok(Settings::Listed(values.to_vec()))
 }

@@ -7,9 +7,11 @@ use righting_scenario::{Error, Scenario};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use crate::base::Base;
 use crate::case::{Case, CaseId};
-use crate::dimension::{Column, Dimension};
+use crate::dimension::{Column, Dimension, Variation};
 use crate::file::{self, Evaluation, ScenarioReference};
+use crate::system_values::{SYSTEM, put_systems_inline};
 use crate::table::RESULT_COLUMNS;
 
 /// The most cases that a sweep may have.
@@ -25,7 +27,7 @@ pub struct Sweep {
     dimensions: Vec<Dimension>,
     columns: Vec<Column>,
     len: usize,
-    base: Value,
+    base: Base,
     base_sha256: String,
     case_time_limit_s: f64,
 }
@@ -59,14 +61,17 @@ impl Sweep {
 
     /// Checks a sweep that stands at `place` in `file`.
     pub(crate) fn from_file_at(
-        sweep: file::Sweep,
+        mut sweep: file::Sweep,
         file: &Path,
         place: &Location,
     ) -> Result<Self, Error> {
         if sweep.name.trim().is_empty() {
             return Err(place.key("name").refuse("\"\"", "a name"));
         }
-        let base = base(&sweep.scenario, file, &place.key("scenario"))?;
+        let mut base = Base::read(&sweep.scenario, file, &place.key("scenario"))?;
+        for (index, dimension) in sweep.vary.iter_mut().enumerate() {
+            put_systems_inline(dimension, file, &place.key("vary").index(index))?;
+        }
         let dimensions = dimensions(&sweep.vary, &place.key("vary"))?;
         let columns = columns(&dimensions, &place.key("vary"))?;
         let len = dimensions
@@ -83,30 +88,44 @@ impl Sweep {
             Some(limit_s) => place.key("case_time_limit_s").within(limit_s, TIME_LIMIT_S)?,
             None => DEFAULT_TIME_LIMIT_S,
         };
+        for variation in dimensions.iter().flat_map(Dimension::variations) {
+            if variation.relative || variation.path.reaches_into_arrays() {
+                base.fill_in(&variation.path);
+            }
+        }
+        let scenario = base.to_file();
+        let base_sha256 = scenario.sha256();
         let resolved = file::Sweep {
-            scenario: ScenarioReference::Inline(Box::new(base.resolved().clone())),
+            scenario: ScenarioReference::Inline(Box::new(scenario)),
             case_time_limit_s: Some(case_time_limit_s),
             ..sweep
         };
-        let sweep = Self {
-            dimensions,
-            columns,
-            len,
-            base: json!(base.resolved()),
-            base_sha256: base.resolved().sha256(),
-            case_time_limit_s,
-            resolved,
-        };
-        sweep.check_first_case(file, place)?;
+        let sweep =
+            Self { dimensions, columns, len, base, base_sha256, case_time_limit_s, resolved };
+        for case in sweep.telling_cases() {
+            sweep.check(&case, file, place)?;
+        }
         Ok(sweep)
     }
 
-    /// Every field is set in the first case, so one that the scenario does not have shows there.
-    fn check_first_case(&self, file: &Path, place: &Location) -> Result<(), Error> {
-        let first = self.case(0);
-        let mut scenario = self.base.clone();
+    /// The first case, since every field is set there and one that the scenario does not have shows; and that
+    /// of each system, since the base scenario may not fit it.
+    fn telling_cases(&self) -> Vec<Case> {
+        let is_system = |dimension: &&Dimension| {
+            dimension.variations().iter().any(|variation| variation.path.as_str() == SYSTEM)
+        };
+        let Some(systems) = self.dimensions.iter().find(is_system) else {
+            return vec![self.case(0)];
+        };
+        let after = self.dimensions.iter().rev().take_while(|dimension| !is_system(dimension));
+        let apart: usize = after.map(Dimension::len).product();
+        (0..systems.len()).map(|index| self.case(index * apart)).collect()
+    }
+
+    fn check(&self, case: &Case, file: &Path, place: &Location) -> Result<(), Error> {
+        let mut scenario = self.base.written().clone();
         for (column, (at, variation)) in self.variations(place).enumerate() {
-            let setting = &first.values[column];
+            let setting = &case.values[column];
             variation.apply(&mut scenario, setting).map_err(|problem| {
                 let expected = format!("a field that the settings fit ({problem})");
                 at.key("field").refuse(shown(&json!(variation.path.as_str())), expected)
@@ -115,12 +134,19 @@ impl Sweep {
         match Scenario::parse(&scenario.to_string(), file) {
             Err(Error::Field { field, .. }) => {
                 let about = |at: &str| field.path.starts_with(at) || at.starts_with(&field.path);
-                let culprit = self
-                    .variations(place)
-                    .find(|(_, variation)| about(variation.path.as_str()))
+                let at_fault = |variation: &Variation| about(variation.path.as_str());
+                let is_system = |variation: &Variation| variation.path.as_str() == SYSTEM;
+                let find = |is_it: &dyn Fn(&Variation) -> bool| {
+                    self.variations(place).find(|(_, variation)| is_it(variation))
+                };
+                let culprit = find(&at_fault)
+                    .or_else(|| find(&is_system))
                     .map_or(place.key("vary"), |(at, _)| at);
-                Err(culprit
-                    .because(format_args!("{} of the first case", field.path), field.problem))
+                let of_case = match case.index {
+                    0 => "the first case".to_owned(),
+                    index => format!("case {}", index + 1),
+                };
+                Err(culprit.because(format_args!("{} of {of_case}", field.path), field.problem))
             }
             Err(error) => Err(error),
             Ok(_) => Ok(()),
@@ -131,7 +157,7 @@ impl Sweep {
     fn variations<'a>(
         &'a self,
         place: &'a Location,
-    ) -> impl Iterator<Item = (Location, &'a crate::dimension::Variation)> {
+    ) -> impl Iterator<Item = (Location, &'a Variation)> {
         self.dimensions.iter().enumerate().flat_map(move |(i, dimension)| {
             let at = place.key("vary").index(i);
             let zipped = self.resolved.vary[i].zip.is_some();
@@ -167,14 +193,14 @@ impl Sweep {
         self.case_time_limit_s
     }
 
-    /// The sweep as a file, its base scenario inline and every default filled in.
+    /// The sweep as a file, its base scenario and all systems inline.
     pub fn resolved(&self) -> &file::Sweep {
         &self.resolved
     }
 
-    /// The base scenario, resolved.
+    /// The base scenario as it is written, its system inline.
     pub fn base(&self) -> &Value {
-        &self.base
+        self.base.written()
     }
 
     /// Case `index` of [`len`](Self::len).
@@ -202,9 +228,9 @@ impl Sweep {
         Case { index, id: self.id(&values), values }
     }
 
-    /// The scenario of a case, resolved but for what the case sets.
+    /// The scenario of a case: the base scenario with what the case sets.
     pub fn scenario(&self, case: &Case) -> Value {
-        let mut scenario = self.base.clone();
+        let mut scenario = self.base.written().clone();
         let variations = self.dimensions.iter().flat_map(Dimension::variations);
         for (variation, setting) in variations.zip(&case.values) {
             // The first case could be set so; one that cannot is refused when it is planned.
@@ -234,28 +260,6 @@ impl Sweep {
         set.iter().for_each(|line| hash.update(line));
         let digest = hash.finalize();
         CaseId(u64::from_be_bytes(digest[..8].try_into().expect("eight bytes of 32")))
-    }
-}
-
-fn base(reference: &ScenarioReference, file: &Path, place: &Location) -> Result<Scenario, Error> {
-    match reference {
-        ScenarioReference::Inline(scenario) => {
-            Scenario::from_file_at((**scenario).clone(), file, place)
-        }
-        ScenarioReference::File(path) if path.is_empty() => {
-            Err(place.refuse("\"\"", "the path of a scenario file, or a scenario"))
-        }
-        ScenarioReference::File(path) => {
-            Scenario::read(&file.parent().unwrap_or(Path::new("")).join(path)).map_err(|error| {
-                match error {
-                    Error::Field { .. } | Error::NotJson { .. } | Error::Kind { .. } => error,
-                    unreadable => place.refuse(
-                        shown(&json!(path)),
-                        format_args!("the path of a scenario file ({unreadable})"),
-                    ),
-                }
-            })
-        }
     }
 }
 

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use righting_sweep::{CaseId, Sweep, sweep_schema};
+use righting_scenario::Scenario;
+use righting_sweep::{CaseId, Kind, Sweep, sweep_schema};
 use serde_json::{Value, json};
 
 /// As if the file stood among the scenarios.
@@ -101,6 +102,68 @@ fn a_case_keeps_its_id_when_the_sweep_grows_or_is_written_another_way() {
     assert!(ids(&parse(&flown)).iter().all(|id| !first.contains(id)));
 }
 
+/// Arms of different numbers of joints, each with its start.
+fn three_arms() -> Value {
+    json!({ "zip": [
+        { "field": "system", "values": ["systems/single_link_2dof.json", "systems/xlink_4dof.json",
+                                        "systems/xlink_4dof_solar_arrays.json"] },
+        { "field": "initial.joint_angles_deg", "values": [[0, 0], [0, 0, 0, 0], [0, 0, 0, 0]] },
+    ] })
+}
+
+#[test]
+fn arms_of_other_numbers_of_joints_keep_the_defaults_that_fit_them() {
+    let sweep = parse(&sweep_of(json!([three_arms(), angles(json!([5, 10]))])));
+    assert_eq!(sweep.columns()[0].kind, Kind::Named);
+    for (index, joints) in [2, 2, 4, 4, 4, 4].into_iter().enumerate() {
+        let scenario = sweep.scenario(&sweep.case(index));
+        let checked = Scenario::parse(&scenario.to_string(), Path::new("case")).unwrap();
+        assert_eq!(checked.system().joint_count(), joints);
+        // No path is left in a case: a shard runs on machines that have no other file.
+        assert!(scenario["system"]["base"]["mass_kg"].is_number());
+    }
+    let planned = sweep_of(json!([three_arms()]));
+    let again = json!(parse(&planned).resolved());
+    let moved = Sweep::parse(&again.to_string(), Path::new("elsewhere/sweep.json")).unwrap();
+    assert_eq!(ids(&moved), ids(&parse(&planned)));
+}
+
+#[test]
+fn the_id_of_a_case_follows_what_is_in_a_system_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sweep.json");
+    let arm = folder.path().join("arm.json");
+    let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json")).unwrap();
+    let sweep = json!({ "name": "test", "scenario": scenario.resolved(),
+                        "vary": [{ "field": "system", "values": ["arm.json"] }] });
+    let of_mass = |mass_kg: f64| {
+        let mut system = scenario.resolved_system().clone();
+        system.base.mass_kg = mass_kg;
+        std::fs::write(&arm, json!(system).to_string()).unwrap();
+        Sweep::parse(&sweep.to_string(), &file).unwrap().case(0).id
+    };
+    assert_ne!(of_mass(300.0), of_mass(310.0));
+    assert_eq!(of_mass(300.0), of_mass(300.0));
+}
+
+#[test]
+fn a_part_of_what_the_base_leaves_to_its_default_can_vary() {
+    let vary = json!([
+        { "field": "collision.clearance_m", "relative": true, "values": [1, 2] },
+        { "field": "initial.joint_rates_deg_s[1]", "values": [0] },
+        { "field": "solver.guess.starts", "values": [4] },
+    ]);
+    let mut sweep = sweep_of(vary);
+    let base = std::fs::read_to_string("../../scenarios/sweeps/reach_2dof.json").unwrap();
+    sweep["scenario"] = serde_json::from_str::<Value>(&base).unwrap()["scenario"].clone();
+    sweep["scenario"]["system"] = json!("systems/single_link_2dof.json");
+    let sweep = parse(&sweep);
+    let scenario = sweep.scenario(&sweep.case(1));
+    assert_eq!(scenario["collision"]["clearance_m"], 0.02);
+    assert_eq!(scenario["initial"]["joint_rates_deg_s"], json!([0.0, 0]));
+    assert_eq!(scenario["solver"], json!({ "guess": { "starts": 4 } }));
+}
+
 #[test]
 fn whatever_is_wrong_the_complaint_names_the_field() {
     let vary = |dimension: Value| sweep_of(json!([dimension]));
@@ -177,6 +240,31 @@ fn whatever_is_wrong_the_complaint_names_the_field() {
             sweep_of(json!([angles(json!([1])), angles(json!([2]))])),
             "vary[1]: found \"maneuver.angle_deg\" again, expected",
             "once",
+        ),
+        (
+            vary(json!({ "zip": [
+                angles(json!([5, 10, 5])),
+                { "field": "horizon.duration_s", "values": [30, 30, 30] },
+            ] })),
+            "vary[0].zip: found settings 3 the same as settings 1, expected",
+            "each combination once",
+        ),
+        (
+            vary(
+                json!({ "field": "system", "values": ["systems/single_link_2dof.json", "systems/xlink_4dof.json"] }),
+            ),
+            "vary[0]: initial.joint_angles_deg of case 2: found an array of 2, expected",
+            "an array of 4, one a joint",
+        ),
+        (
+            vary(json!({ "field": "system", "values": ["absent.json"] })),
+            "vary[0].values[0]: found \"absent.json\", expected",
+            "no such file",
+        ),
+        (
+            vary(json!({ "field": "system", "values": ["arm.urdf"] })),
+            "vary[0].values[0]: found \"arm.urdf\", expected",
+            "`righting import`",
         ),
         (
             vary(json!({ "field": "maneuver.angle_deg", "name": "status", "values": [1] })),

@@ -1,6 +1,24 @@
 import { Quaternion, Vector3 } from "three";
 import { decodeColumn, type ColumnName, type ReportData } from "./data";
 
+/** An interval between times, and how far into it, 0 to 1. */
+export interface Place {
+  k: number;
+  share: number;
+}
+
+/** The interval of ascending `times` that holds a time. */
+export function locate(times: ArrayLike<number>, time: number): Place {
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  const share = (time - times[low]) / (times[high] - times[low]);
+  return { k: low, share: Math.min(Math.max(share, 0), 1) };
+}
+
 /** The plan as a function of time: exact at its nodes, in between on the straight way. */
 export class Motion {
   readonly time: Float32Array;
@@ -40,15 +58,8 @@ export class Motion {
   }
 
   /** The interval that holds a time, and how far into it the time is, 0 to 1. */
-  locate(time: number): { k: number; share: number } {
-    let [low, high] = [0, this.nodes - 1];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.time[middle] <= time) low = middle;
-      else high = middle;
-    }
-    const share = (time - this.time[low]) / (this.time[high] - this.time[low]);
-    return { k: low, share: Math.min(Math.max(share, 0), 1) };
+  locate(time: number): Place {
+    return locate(this.time, time);
   }
 
   /** All numbers of a column at a time. */

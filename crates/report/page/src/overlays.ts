@@ -14,6 +14,8 @@ export function triad(length: number, frame: string, width: number): Group {
     const end = axis.clone().multiplyScalar(length);
     const name = label(AXIS_COLORS[i], frame, AXIS_COLORS[i]);
     name.position.copy(axis).multiplyScalar(1.06 * length);
+    // Beside the axis: an arm often points along one.
+    name.center.set(-0.35, 0.5);
     group.add(segments([new Vector3(), end], { color: AXIS_COLORS[i], width }), name);
   });
   return group;

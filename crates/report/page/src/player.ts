@@ -14,6 +14,7 @@ export class Player {
   speed: number;
   private playingSince: number | null = null;
   private readonly listeners: (() => void)[] = [];
+  private atEnd: (() => void) | null = null;
 
   /** Speeds to choose from, times real time. */
   readonly speeds: number[];
@@ -31,6 +32,11 @@ export class Player {
 
   onChange(listener: () => void): void {
     this.listeners.push(listener);
+  }
+
+  /** Calls once, when playing has come to the end. */
+  onEnd(listener: () => void): void {
+    this.atEnd = listener;
   }
 
   seek(time: number): void {
@@ -70,6 +76,9 @@ export class Player {
     if (this.time >= this.duration) this.playingSince = null;
     else requestAnimationFrame(this.advance);
     this.tell();
+    if (this.playing) return;
+    this.atEnd?.();
+    this.atEnd = null;
   };
 
   private tell(): void {

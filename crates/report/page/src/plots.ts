@@ -1,59 +1,47 @@
 import uPlot from "uplot";
-import type { JointLimits, ReportData } from "./data";
 import { element } from "./element";
-import { short } from "./format";
-import type { Motion } from "./motion";
+import { clock, short } from "./format";
+import { locate } from "./motion";
+import { drawLimits, range, tick, type Curve, type Panel } from "./panel";
 import type { Player } from "./player";
-import { AXIS_COLORS, color, jointColor, onThemeChange } from "./theme";
+import { color, onThemeChange } from "./theme";
 
-interface Curve {
-  name: string;
-  stroke: () => string;
-  values: ArrayLike<number>;
-}
-
-interface LimitLine {
-  value: number;
-  stroke: () => string;
-}
-
-interface Panel {
-  title: string;
-  unit: string;
-  curves: Curve[];
-  /** Dashed where they are near the curves, named in any case. */
-  limits: { text: string; lines: LimitLine[] };
-  /** Held over each interval rather than joined. */
-  held: boolean;
-  /** Below this height curves count as constant. */
-  leastSpan: number;
-}
-
-const DEGREES = 180 / Math.PI;
 /** Whole pixels: uPlot scales no others. */
 const FONT_PX = 11;
 
-/** The plots beneath each other, all with the player's time; dragging on one seeks. */
+/** The plots beneath each other, all with the player's time; dragging on one seeks, pointing at one reads. */
 export class Plots {
   private readonly plots: { plot: uPlot; readouts: HTMLElement[]; panel: Panel }[] = [];
   private readonly times: number[];
+  /** The node that the pointer is at, if it is in a plot. */
+  private pointed: number | null = null;
 
+  /** `times` are those of all curves of `panels`. */
   constructor(
-    private readonly container: HTMLElement, data: ReportData,
-    private readonly motion: Motion, private readonly player: Player,
+    private readonly container: HTMLElement, panels: Panel[], times: ArrayLike<number>,
+    private readonly player: Player,
   ) {
-    this.times = Array.from(motion.time);
-    for (const panel of panels(data, motion)) this.add(panel);
+    this.times = Array.from(times);
+    for (const panel of panels) this.add(panel);
     new ResizeObserver(() => this.resize()).observe(container);
     onThemeChange(() => this.plots.forEach(({ plot }) => plot.redraw(false)));
   }
 
   /** Moves the time line and the readouts. */
   show(time: number): void {
-    const { k, share } = this.motion.locate(time);
-    for (const { plot, readouts, panel } of this.plots) {
+    for (const { plot } of this.plots) {
       const line = plot.over.querySelector<HTMLElement>(".now");
       if (line) line.style.transform = `translateX(${plot.valToPos(time, "x")}px)`;
+    }
+    this.read();
+  }
+
+  /** Writes the values at the node pointed at, or, where none is, at the player's time. */
+  private read(): void {
+    const time = this.pointed === null ? this.player.time : this.times[this.pointed];
+    const { k, share } = locate(this.times, time);
+    this.container.classList.toggle("pointed", this.pointed !== null);
+    for (const { readouts, panel } of this.plots) {
       panel.curves.forEach(({ values }, i) => {
         const [a, b] = [values[k], values[k + 1]];
         const value = share === 1 ? (panel.held ? a : b)
@@ -61,6 +49,20 @@ export class Plots {
         readouts[i].textContent = short(value);
       });
     }
+  }
+
+  /** Takes the node that uPlot's cursor is at; all plots have one cursor. */
+  private point(plot: uPlot): void {
+    const { left, idx } = plot.cursor;
+    const isInside = left !== undefined && left >= 0 && idx != null;
+    this.pointed = isInside ? idx : null;
+    const flag = plot.over.querySelector<HTMLElement>(".at");
+    if (flag && isInside) {
+      const x = plot.valToPos(this.times[idx], "x");
+      flag.textContent = `${clock(this.times[idx], this.player.duration)} s`;
+      flag.style.transform = `translateX(${x}px)` + (x > 0.7 * plot.over.clientWidth ? " translateX(-100%)" : "");
+    }
+    this.read();
   }
 
   private add(panel: Panel): void {
@@ -92,7 +94,7 @@ export class Plots {
     figure.append(caption, place);
     this.container.append(figure);
     const plot = new uPlot(this.options(panel), this.columns(panel), place);
-    plot.over.append(element("div", "now"));
+    plot.over.append(element("div", "now"), element("div", "at"));
     this.scrubOn(plot);
     this.plots.push({ plot, readouts, panel });
   }
@@ -130,7 +132,7 @@ export class Plots {
       ],
       cursor: {
         y: false,
-        points: { show: false },
+        points: { size: 6 },
         sync: { key: "righting" },
         drag: { x: true, y: false, setScale: true },
         // A plain drag scrubs; with Shift it zooms, as a double click does out.
@@ -138,6 +140,7 @@ export class Plots {
       },
       hooks: {
         draw: [(plot) => drawLimits(plot, panel.limits.lines)],
+        setCursor: [(plot) => this.point(plot)],
         setScale: [(plot, key) => { if (key === "x") this.zoomTo(plot); }],
       },
     };
@@ -182,140 +185,4 @@ export class Plots {
       over.addEventListener(end, () => { scrubbing = false; });
     }
   }
-}
-
-function panels(data: ReportData, motion: Motion): Panel[] {
-  const { joint_limits, clearance_m } = data.spacecraft;
-  const scaled = (values: Float32Array, factor: number) => values.map((value) => factor * value);
-  const components = (name: Parameters<Motion["component"]>[0], factor = 1): Curve[] =>
-    AXIS_COLORS.map((axis, i) => ({
-      name: axis, stroke: () => color(axis), values: scaled(motion.component(name, i), factor),
-    }));
-  const joints = (name: Parameters<Motion["component"]>[0], factor = 1): Curve[] =>
-    joint_limits.map((_, i) => ({
-      name: data.spacecraft.joint_names[i] ?? `${i + 1}`, stroke: () => jointColor(i), values: scaled(motion.component(name, i), factor),
-    }));
-  const one = (name: string, values: ArrayLike<number>, paint = "ink"): Curve =>
-    ({ name, stroke: () => color(paint), values });
-  const none = { text: "", lines: [] };
-  const plain = { limits: none, held: false, leastSpan: 1e-6 };
-  const rates = components("angular_rate_rad_s", DEGREES);
-  const spin = motion.time.map((_, k) => Math.hypot(...rates.map(({ values }) => values[k])));
-  const clearances: Curve[] = [];
-  if (motion.width("body_clearance_m")) {
-    const what = data.spacecraft.keep_out.length > 0 ? "from the base" : "keep-out sphere";
-    clearances.push(one(what, motion.component("body_clearance_m"), "joint-0"));
-  }
-  if (motion.width("link_clearance_m")) {
-    clearances.push(one("between links", motion.component("link_clearance_m"), "joint-1"));
-  }
-  const bound = data.bound_deg_s;
-  const angles = joints("joint_angles_rad", DEGREES);
-  const isSlew = motion.width("attitude_error_rad") > 0;
-  return [
-    ...(isSlew ? [{
-      ...plain, title: data.waypoints.length > 0 ? "Angle to the next target" : "Angle to the target", unit: "deg", leastSpan: 1e-3,
-      curves: [one("", scaled(motion.component("attitude_error_rad"), DEGREES))],
-    }] : []),
-    {
-      ...plain, title: "Angular rate of the base, body axes", unit: "deg/s", leastSpan: 1e-4,
-      curves: [...rates, one("|ω|", spin)],
-      limits: bound === null ? none : { text: `least possible ${short(bound, 3)}`, lines: [common(bound)] },
-    },
-    {
-      ...plain, title: "Joint angles", unit: "deg", leastSpan: 1e-2, curves: angles,
-      limits: reachedAngles(joint_limits, angles),
-    },
-    {
-      ...plain, title: "Joint rates", unit: "deg/s", leastSpan: 1e-3, curves: joints("joint_rates_rad_s", DEGREES),
-      limits: symmetric(joint_limits.map((limit) => limit.rate_max_deg_s)),
-    },
-    {
-      ...plain, title: motion.hasJerks ? "Joint accelerations" : "Joint accelerations, the control",
-      unit: "deg/s²", leastSpan: 1e-4, held: !motion.hasJerks,
-      curves: joints("joint_accelerations_rad_s2", DEGREES),
-      limits: symmetric(joint_limits.map((limit) => limit.acceleration_max_deg_s2)),
-    },
-    ...(motion.hasJerks ? [{
-      ...plain, title: "Joint jerks, the control", unit: "deg/s³", leastSpan: 1e-5, held: true,
-      curves: joints("joint_jerks_rad_s3", DEGREES),
-      limits: symmetric(joint_limits.flatMap((limit) => limit.jerk_max_deg_s3 ?? [])),
-    }] : []),
-    { ...plain, title: "Joint torques", unit: "N m", held: true, curves: joints("joint_torques_n_m") },
-    { ...plain, title: "Mechanical power of the joints", unit: "W", curves: [one("", motion.component("power_w"))] },
-    {
-      ...plain, title: "Momentum of the arm's motion, body axes", unit: "N m s",
-      curves: components("arm_momentum_n_m_s"),
-    },
-    ...(clearances.length > 0 ? [{
-      ...plain, title: "Least clearance", unit: "m", leastSpan: 1e-3, curves: clearances,
-      limits: { text: `at least ${short(clearance_m, 3)}`, lines: [common(clearance_m)] },
-    }] : []),
-  ];
-}
-
-function symmetric(limits: number[]): Panel["limits"] {
-  const distinct = [...new Set(limits)].sort((a, b) => a - b);
-  const text = `limit ±${distinct.map((limit) => short(limit, 3)).join(", ±")}`;
-  return { text, lines: distinct.flatMap((limit) => [common(-limit), common(limit)]) };
-}
-
-function common(value: number): LimitLine {
-  return { value, stroke: () => color("limit") };
-}
-
-/** The limits that a joint comes close to, in its colour: all of them would bury the curves. */
-function reachedAngles(joints: JointLimits[], curves: Curve[]): Panel["limits"] {
-  const lines = joints.flatMap(({ angle_min_deg, angle_max_deg }, i) => {
-    const { values, stroke } = curves[i];
-    const [low, high] = [Math.min(...Array.from(values)), Math.max(...Array.from(values))];
-    const near = 0.02 * ((angle_max_deg ?? high) - (angle_min_deg ?? low));
-    return [
-      ...(angle_min_deg !== null && low - angle_min_deg < near ? [{ value: angle_min_deg, stroke }] : []),
-      ...(angle_max_deg !== null && angle_max_deg - high < near ? [{ value: angle_max_deg, stroke }] : []),
-    ];
-  });
-  return { text: lines.length > 0 ? "dashed: limits reached" : "", lines };
-}
-
-/** Room for the curves, and for limits that do not squeeze them. */
-function range(panel: Panel, low: number | null, high: number | null): [number, number] {
-  let [from, to] = [low ?? 0, high ?? 0];
-  const span = Math.max(to - from, panel.leastSpan);
-  const middle = (from + to) / 2;
-  [from, to] = [Math.min(from, middle - span / 2), Math.max(to, middle + span / 2)];
-  for (const { value: limit } of panel.limits.lines) {
-    if (limit > middle && limit - to < 0.35 * span) to = Math.max(to, limit);
-    if (limit < middle && from - limit < 0.35 * span) from = Math.min(from, limit);
-  }
-  const pad = 0.06 * (to - from);
-  return [from - pad, to + pad];
-}
-
-function drawLimits(plot: uPlot, lines: LimitLine[]): void {
-  const { ctx, bbox } = plot;
-  const { min = 0, max = 0 } = plot.scales["y"];
-  ctx.save();
-  ctx.lineWidth = devicePixelRatio;
-  ctx.setLineDash([6 * devicePixelRatio, 4 * devicePixelRatio]);
-  for (const { value, stroke } of lines) {
-    ctx.strokeStyle = stroke();
-    if (value < (min ?? 0) || value > (max ?? 0)) continue;
-    const y = plot.valToPos(value, "y", true);
-    ctx.beginPath();
-    ctx.moveTo(bbox.left, y);
-    ctx.lineTo(bbox.left + bbox.width, y);
-    ctx.stroke();
-  }
-  ctx.restore();
-}
-
-/** A tick label with just the decimals that tell the ticks apart. */
-function tick(value: number, ticks: number[]): string {
-  const step = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : Math.abs(value);
-  const isPlain = step >= 1e-4 && step < 1e5;
-  let decimals = 0;
-  while (isPlain && Math.abs(+step.toFixed(decimals) - step) > 1e-3 * step) decimals++;
-  const text = isPlain || step === 0 ? value.toFixed(decimals) : value.toExponential(1);
-  return text.replaceAll("-", "\u2212");
 }

@@ -1,4 +1,5 @@
 import "./report.css";
+import { Vector3 } from "three";
 import { readData } from "./data";
 import { byId, element } from "./element";
 import { short } from "./format";
@@ -6,7 +7,9 @@ import { Motion } from "./motion";
 import { fillNumbers } from "./numbers";
 import { Player } from "./player";
 import { Plots } from "./plots";
+import { panels } from "./report-panels";
 import { LAYERS, Stage, type FrameName } from "./stage";
+import { Tools } from "./tools";
 import { Transport } from "./transport";
 import { VIEWS, type ViewName } from "./viewport";
 
@@ -14,9 +17,10 @@ const data = readData();
 const motion = new Motion(data);
 const player = new Player(motion.duration);
 fillNumbers(data);
-const plots = new Plots(byId("plots"), data, motion, player);
-const transport = new Transport(player, motion);
+const plots = new Plots(byId("plots"), panels(data, motion), motion.time, player);
+const transport = new Transport(player, motion.time);
 const stage = openStage();
+const tools = new Tools(stage, player, data.name);
 
 function openStage(): Stage | null {
   try {
@@ -78,12 +82,13 @@ function setFrame(frame: FrameName): void {
   }
 }
 
-/** `report.html#t=12.5&frame=body&view=x` opens at that time, in that frame, from that side. */
+/** `report.html#t=12.5&frame=body&view=x` opens at that time, in that frame, from that side; `from` is a direction. */
 function readAddress(): void {
   const wanted = new URLSearchParams(location.hash.slice(1));
-  const [frame, view, time] = ["frame", "view", "t"].map((name) => wanted.get(name));
+  const [frame, view, from, time] = ["frame", "view", "from", "t"].map((name) => wanted.get(name));
   if (frame === "inertial" || frame === "body") setFrame(frame);
   if (view && view in VIEWS) stage?.viewport.look(view as ViewName);
+  if (from) stage?.viewport.lookFrom(new Vector3().fromArray(from.split(",").map(Number)));
   if (time) player.seek(Number(time));
 }
 
@@ -95,6 +100,9 @@ const righting = {
   pause: () => player.pause(),
   setSpeed: (speed: number) => player.setSpeed(speed),
   setFrame,
+  link: () => tools.link(),
+  picture: () => tools.picture(),
+  video: () => tools.video(),
   /** Time, what is drawn there, and what the plan's columns say. */
   state: () => {
     const drawn = stage?.drawn();
@@ -104,6 +112,7 @@ const righting = {
       playing: player.playing,
       speed: player.speed,
       frame: stage?.frame ?? null,
+      from: stage?.viewport.direction().toArray() ?? null,
       drawn: drawn ? {
         position_m: drawn.position.toArray(),
         attitude_wxyz: [drawn.attitude.w, drawn.attitude.x, drawn.attitude.y, drawn.attitude.z],

@@ -1,6 +1,6 @@
 import { byId } from "./element";
 import { clock, short } from "./format";
-import type { Motion } from "./motion";
+import { locate } from "./motion";
 import type { Player } from "./player";
 
 /** Play, scrub, step and speed: buttons and keys. */
@@ -9,7 +9,8 @@ export class Transport {
   private readonly slider = byId<HTMLInputElement>("time");
   private readonly speed = byId<HTMLSelectElement>("speed");
 
-  constructor(private readonly player: Player, private readonly motion: Motion) {
+  /** Steps go from one of `times` to the next. */
+  constructor(private readonly player: Player, private readonly times: ArrayLike<number>) {
     this.slider.max = String(player.duration);
     this.slider.step = "any";
     byId("duration").textContent = ` / ${clock(player.duration, player.duration)} s`;
@@ -44,14 +45,14 @@ export class Transport {
     this.speed.add(new Option(`${short(speed, 2).replace(/\.0$/, "")}×`, String(speed)));
   }
 
-  /** To the next node of the plan, or the one before. */
+  /** To the next node, or the one before. */
   private step(nodes: number): void {
-    const { time } = this.motion;
+    const { times } = this;
     this.player.pause();
-    const { k, share } = this.motion.locate(this.player.time);
+    const { k, share } = locate(times, this.player.time);
     const here = share === 1 ? k + 1 : k;
     const target = nodes < 0 && share > 0 && share < 1 ? here : here + nodes;
-    this.player.seek(time[Math.min(Math.max(target, 0), time.length - 1)]);
+    this.player.seek(times[Math.min(Math.max(target, 0), times.length - 1)]);
   }
 
   private onKey(event: KeyboardEvent): void {

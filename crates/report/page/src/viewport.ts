@@ -68,6 +68,45 @@ export class Viewport {
     this.place(VIEWS[view]);
   }
 
+  /** Looks from a direction; from none that is no direction. */
+  lookFrom(direction: Vector3): void {
+    if (direction.toArray().every(Number.isFinite) && direction.lengthSq() > 0) this.place(direction);
+  }
+
+  /** What is drawn now, a PNG. */
+  picture(): Promise<Blob> {
+    // The drawing buffer is empty again once the browser has shown it.
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((done, fail) => this.renderer.domElement.toBlob(
+      (blob) => { if (blob) done(blob); else fail(new Error("the browser makes no picture")); }, "image/png"));
+  }
+
+  /** What is drawn from now on. */
+  stream(framesPerSecond: number): MediaStream {
+    return this.renderer.domElement.captureStream(framesPerSecond);
+  }
+
+  /** Calls when the scene was turned, moved or scaled. */
+  onTurn(listener: () => void): void {
+    this.controls.addEventListener("change", listener);
+  }
+
+  /** Looks at this scene as another one is looked at, each in its own size. */
+  lookAs(other: Viewport): void {
+    const scale = this.fitted.radius / other.fitted.radius;
+    const { target } = other.controls;
+    this.controls.target.copy(target).sub(other.fitted.center).multiplyScalar(scale).add(this.fitted.center);
+    const away = other.camera.position.clone().sub(target).multiplyScalar(scale);
+    this.camera.position.copy(this.controls.target).add(away);
+    this.controls.update();
+    this.requestDraw();
+  }
+
+  /** Unit vector to the camera from what it looks at. */
+  direction(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
   private place(direction: Vector3): void {
     const { center, radius } = this.fitted;
     const vertical = (this.camera.fov * Math.PI) / 360;

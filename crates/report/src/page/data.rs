@@ -45,7 +45,8 @@ struct Verdict {
 /// What is drawn and does not change.
 #[derive(Debug, Serialize)]
 struct Spacecraft {
-    /// Edges of the uniform box with the base's mass and inertia; a cube is drawn as itself.
+    /// Edges of the uniform box with the base's mass and inertia, no larger than fits in the keep-out sphere; a cube
+    /// is drawn as itself.
     box_m: [f64; 3],
     /// Its attitude in the body frame, scalar first.
     box_attitude: [f64; 4],
@@ -243,6 +244,7 @@ impl JointLimits {
 
 /// Edges and attitude of the uniform box with the base's mass and inertia: with principal moments
 /// J, an edge a₁ obeys a₁² = 6 (J₂ + J₃ − J₁)/m. None is drawn thinner than a fiftieth of the longest.
+/// It is drawn smaller where it would not fit in the sphere that the arm keeps out of.
 fn equivalent_box(system: &SystemDescription) -> ([f64; 3], [f64; 4]) {
     let base = system.model.base();
     let principal = base.inertia_kg_m2.symmetric_eigen();
@@ -250,6 +252,8 @@ fn equivalent_box(system: &SystemDescription) -> ([f64; 3], [f64; 4]) {
     let edges =
         moments.map(|own| (6.0 * (moments.sum() - 2.0 * own) / base.mass_kg).max(0.0).sqrt());
     let edges = edges.map(|edge| edge.max(0.02 * edges.max()));
+    let fitting = system.keep_out_radius_m.map_or(1.0, |radius_m| 2.0 * radius_m / edges.norm());
+    let edges = edges * fitting.min(1.0);
     let mut axes: Matrix3<f64> = principal.eigenvectors;
     if axes.determinant() < 0.0 {
         axes = -axes;

@@ -1,6 +1,8 @@
-//! `report.html`, the maneuver to look at, and `slews.html`, a sweep: files that need nothing else.
+//! `report.html`, the maneuver to look at, `compare.html`, several of them, and `slews.html`, a sweep: files that
+//! need nothing else.
 
 mod columns;
+mod compare;
 mod cones;
 mod data;
 mod slews;
@@ -9,6 +11,7 @@ use righting_results::{Solution, Trajectory};
 use righting_scenario::Scenario;
 use serde::Serialize;
 
+pub use compare::compare_html;
 use data::PageData;
 pub use slews::slews_html;
 
@@ -67,12 +70,12 @@ mod tests {
 
     #[test]
     fn nothing_in_the_bundle_ends_its_element() {
-        for script in [SCRIPT, slews::SCRIPT] {
+        for script in [SCRIPT, compare::SCRIPT, slews::SCRIPT] {
             for forbidden in ["</script", "<!--"] {
                 assert!(!script.to_lowercase().contains(forbidden), "{forbidden}");
             }
         }
-        for style in [STYLE, slews::STYLE] {
+        for style in [STYLE, compare::STYLE, slews::STYLE] {
             assert!(!style.to_lowercase().contains("</style"));
         }
     }
@@ -80,7 +83,9 @@ mod tests {
     #[test]
     fn the_bundle_keeps_the_licences_of_what_is_in_it() {
         for part in ["three.js authors", "Leon Sorokin", "Permission is hereby granted"] {
-            assert!(SCRIPT.contains(part) && slews::SCRIPT.contains(part), "{part}");
+            for script in [SCRIPT, compare::SCRIPT, slews::SCRIPT] {
+                assert!(script.contains(part), "{part}");
+            }
         }
     }
 
@@ -101,7 +106,8 @@ mod tests {
             digest.update(std::fs::read(folder.join(&file)).expect("readable"));
         }
         let digest: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        for bundle in [SCRIPT, STYLE, slews::SCRIPT, slews::STYLE] {
+        let scripts = [SCRIPT, compare::SCRIPT, slews::SCRIPT];
+        for bundle in scripts.into_iter().chain([STYLE, compare::STYLE, slews::STYLE]) {
             let made_from = bundle.lines().next().unwrap_or_default();
             assert!(made_from.contains(&digest), "the bundle is stale: run `make page`");
         }
