@@ -65,17 +65,28 @@ fn check(name: &str) {
     }
 }
 
-/// Maneuvers with the limits that real arms and missions have.
-#[test]
-fn every_real_maneuver_is_planned_and_verified() {
-    let folder = root().join("scenarios/real");
+/// Plans every scenario of a folder.
+fn plan_all_of(name: &str) {
+    let folder = root().join("scenarios").join(name);
     let mut planned = 0;
     for entry in folder.read_dir().unwrap() {
         let file = entry.unwrap().path();
-        solve(&format!("real/{}", file.file_stem().unwrap().to_str().unwrap()));
+        solve(&format!("{name}/{}", file.file_stem().unwrap().to_str().unwrap()));
         planned += 1;
     }
     assert!(planned >= 2, "{planned}");
+}
+
+/// Maneuvers with the limits that real arms and missions have.
+#[test]
+fn every_real_maneuver_is_planned_and_verified() {
+    plan_all_of("real");
+}
+
+/// Maneuvers of arm and wheels together.
+#[test]
+fn every_maneuver_with_wheels_is_planned_and_verified() {
+    plan_all_of("wheels");
 }
 
 #[test]

@@ -108,15 +108,15 @@ fn trajectory(
         let state = scaling.state(coordinates.free_floating_state(&row));
         let mut controls = motion.controls.row(k.min(steps - 1)).to_vec();
         if k < steps {
-            let torques = &mut controls[coordinates.first_wheel()..];
-            wheels.keep_within(&driven[coordinates.wheels()], torques, step_s);
+            let rates = &mut controls[coordinates.first_wheel()..];
+            wheels.keep_within(&driven[coordinates.wheels()], rates, step_s);
         }
         let controls = &controls;
         let accelerations = coordinates.accelerations(&driven, controls);
         let wheel_momenta_n_m_s =
-            scaling.wheel_momenta(&wheels.all_momenta(&driven[coordinates.wheels()]));
+            scaling.wheel_momenta(&wheels.momenta(&driven[coordinates.wheels()]));
         let wheel_torques_n_m =
-            scaling.wheel_torques(&wheels.all_torques(coordinates.wheel_torques(controls)));
+            scaling.wheel_torques(&wheels.torques(coordinates.wheel_rates(controls)));
         if k < steps {
             coordinates.move_driven(&mut driven, controls, step_s);
         }

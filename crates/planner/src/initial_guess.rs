@@ -180,16 +180,19 @@ impl InitialGuesses<'_> {
     /// Takes the momenta of the wheels that work from an earlier plan, and with them their torques.
     fn take_wheels(&self, plan: &Trajectory, guess: &mut InitialGuess) {
         let (first, step_s) = (self.coordinates.first_wheel(), self.step_s());
-        let works = self.scenario.wheels().iter().enumerate().filter(|(_, wheel)| !wheel.failed);
-        for (place, ((wheel, _), state)) in works.zip(self.coordinates.wheels()).enumerate() {
-            for node in 1..=self.steps {
-                let position = node as f64 * plan.steps() as f64 / self.steps as f64;
-                let before = (position.floor() as usize).min(plan.steps() - 1);
-                let [a, b] =
-                    [before, before + 1].map(|node| plan.nodes()[node].wheel_momenta_n_m_s[wheel]);
-                let momentum = a + (position - before as f64) * (b - a);
-                let gained = momentum - guess.states.row(node - 1)[state];
-                guess.states.row_mut(node)[state] = momentum;
+        let states = self.coordinates.wheels();
+        let shares = |node: usize| {
+            self.coordinates.wheel_set().shares(&plan.nodes()[node].wheel_momenta_n_m_s)
+        };
+        for node in 1..=self.steps {
+            let position = node as f64 * plan.steps() as f64 / self.steps as f64;
+            let before = (position.floor() as usize).min(plan.steps() - 1);
+            let ends = shares(before).into_iter().zip(shares(before + 1));
+            for (place, (a, b)) in ends.enumerate() {
+                let state = states.start + place;
+                let share = a + (position - before as f64) * (b - a);
+                let gained = share - guess.states.row(node - 1)[state];
+                guess.states.row_mut(node)[state] = share;
                 guess.controls.row_mut(node - 1)[first + place] = gained / step_s;
             }
         }

@@ -20,8 +20,8 @@ use super::{Cones, Wheels};
 ///
 /// The control is q̈. Where a joint's jerk is limited, q̈ are j more states and the control is the jerk.
 ///
-/// The momenta of the wheels that work follow, each of which changes by its torque: these are controls after those of
-/// the joints. Failed wheels keep what they have.
+/// The momenta of the wheels that work follow, as shares of the most that each stores; their rates, which the torques
+/// decide, are controls after those of the joints. Failed wheels keep what they have.
 ///
 /// Where something acts from outside, the reduced form's momentum h, in inertial axes, is three more states:
 /// ḣ is the moment from outside.
@@ -104,7 +104,7 @@ impl Coordinates {
         first..first + if is_state { 3 } else { 0 }
     }
 
-    /// The momenta of the wheels that work among the states.
+    /// The shares of the wheels that work among the states.
     pub(crate) fn wheels(&self) -> std::ops::Range<usize> {
         self.joints_end()..self.joints_end() + self.wheel_set.working().len()
     }
@@ -119,7 +119,7 @@ impl Coordinates {
         self.wheel_set.stored(&x[self.wheels()])
     }
 
-    /// Index of the first wheel's torque among the controls.
+    /// Index of the rate of the first wheel's share among the controls.
     pub(crate) fn first_wheel(&self) -> usize {
         self.joints()
     }
@@ -129,8 +129,8 @@ impl Coordinates {
         self.joints() + self.wheels().len()
     }
 
-    /// The torques of the wheels that work among the controls.
-    pub(crate) fn wheel_torques<'u, T>(&self, u: &'u [T]) -> &'u [T] {
+    /// The rates of the shares of the wheels that work among the controls.
+    pub(crate) fn wheel_rates<'u, T>(&self, u: &'u [T]) -> &'u [T] {
         &u[self.first_wheel()..]
     }
 
@@ -145,7 +145,7 @@ impl Coordinates {
     }
 
     /// What the controls alone move: joint angles and rates among the states, accelerations where they are, and the
-    /// momenta of wheels.
+    /// shares of wheels.
     pub(crate) fn driven_states(&self) -> std::ops::Range<usize> {
         self.joint_angle(0)..self.wheels().end
     }
@@ -225,8 +225,8 @@ impl Coordinates {
                 x[acceleration] += step_s * jerk;
             }
         }
-        let momenta = x[self.wheels()].iter_mut().zip(self.wheel_torques(u));
-        momenta.for_each(|(momentum, torque)| *momentum += step_s * torque);
+        let shares = x[self.wheels()].iter_mut().zip(self.wheel_rates(u));
+        shares.for_each(|(share, rate)| *share += step_s * rate);
     }
 
     /// The controls of steps of length `step` that stop a joint, as multiples of its rate: one acceleration, or a
@@ -309,8 +309,8 @@ impl Coordinates {
                 let motion = &x[..self.motion_end()];
                 let rate = Vector3::new(x[10], x[11], x[12]);
                 let stored = self.wheel_momentum(x);
-                let torques = self.wheel_torques(u);
-                let external = self.wheel_set.beside(external.clone(), &rate, &stored, torques);
+                let shares = self.wheel_rates(u);
+                let external = self.wheel_set.beside(external.clone(), &rate, &stored, shares);
                 self.system.state_derivative(motion, &accelerations, external.as_ref())
             }
             Formulation::Reduced => {
@@ -321,7 +321,7 @@ impl Coordinates {
         if self.has_jerk {
             rates.extend(self.jerks(u));
         }
-        rates.extend(self.wheel_torques(u));
+        rates.extend(self.wheel_rates(u));
         if let (false, Some(external)) = (self.momentum().is_empty(), external) {
             let moment = self.system.external_moment(&external, self.joint_angles(x));
             rates.extend(attitude.to_inertial(&moment).iter());
@@ -429,8 +429,8 @@ impl Coordinates {
             }
         };
         let angular_rate = self.system.reduced_angular_rate(&joint_angles, &joint_rates, &h_body);
-        let torques = self.wheel_torques(u);
-        let external = self.wheel_set.beside(external, &angular_rate, &stored, torques);
+        let shares = self.wheel_rates(u);
+        let external = self.wheel_set.beside(external, &angular_rate, &stored, shares);
         let begins = self.accelerations(x, u).into_iter().zip(self.jerks(u));
         let joint_accelerations = begins.map(|(begins, jerk)| begins + s * jerk).collect();
         Moment { angular_rate, joint_angles, joint_rates, joint_accelerations, external }
@@ -485,9 +485,9 @@ impl Coordinates {
 
     /// What all wheels store at a time `s` after the beginning of a step from state `x` with the controls `u`.
     fn stored_within<T: Scalar>(&self, x: &[T], u: &[T], s: T) -> Vector3<T> {
-        let momenta = x[self.wheels()].iter().zip(self.wheel_torques(u));
-        let momenta: Vec<T> = momenta.map(|(&momentum, &torque)| momentum + s * torque).collect();
-        self.wheel_set.stored(&momenta)
+        let shares = x[self.wheels()].iter().zip(self.wheel_rates(u));
+        let shares: Vec<T> = shares.map(|(&share, &rate)| share + s * rate).collect();
+        self.wheel_set.stored(&shares)
     }
 
     /// What acts from outside in an attitude at a time.

@@ -25,7 +25,8 @@ impl EndConditions {
         let ends = scenario.wheels().iter().zip(scenario.end_wheel_momenta_n_m_s());
         let working = ends.filter(|(wheel, _)| !wheel.failed);
         let of_wheels = coordinates.wheels().zip(working);
-        let of_wheels = of_wheels.filter_map(|(state, (_, end))| Some((state, (*end)?)));
+        let of_wheels = of_wheels
+            .filter_map(|(state, (wheel, end))| Some((state, (*end)? / wheel.momentum_max_n_m_s)));
         Self { states: moving.flat_map(of_joint).chain(of_wheels).collect() }
     }
 

@@ -81,17 +81,15 @@ impl FormulatedManeuver {
             }
         }
         let wheels = coordinates.wheel_set().working();
-        for (state, wheel) in coordinates.wheels().zip(wheels) {
-            state_bounds.lower[state] = -wheel.momentum_max_n_m_s;
-            state_bounds.upper[state] = wheel.momentum_max_n_m_s;
-        }
+        state_bounds.lower[coordinates.wheels()].fill(-1.0);
+        state_bounds.upper[coordinates.wheels()].fill(1.0);
         let controls: Vec<f64> = limits
             .iter()
             .map(|limits| match coordinates.has_jerk() {
                 true => limits.jerk_max_rad_s3,
                 false => limits.acceleration_max_rad_s2,
             })
-            .chain(wheels.iter().map(|wheel| wheel.torque_max_n_m))
+            .chain(wheels.iter().map(|wheel| wheel.rate_max))
             .collect();
 
         let dynamics = coordinates.clone();
@@ -121,14 +119,15 @@ impl FormulatedManeuver {
             .free_initial_states(&free)
             .running_cost(move |x, u, step| {
                 let of_joints = effort(&running, x, u, step.length) * running.duration_share(x);
-                let of_wheels =
-                    sum_of_squares(running.wheel_torques(u)) * running.duration_share(x);
+                let of_wheels = running.wheel_set().sum_of_squares(running.wheel_rates(u))
+                    * running.duration_share(x);
                 of_joints * control + of_wheels * wheel_torque + waypoints.cost(&running, x, step)
             })
             .terminal_cost(move |x| {
                 let mut end = goal.cost(&terminal.free_floating_state(x), &weights);
                 if weights.wheel_momentum > 0.0 {
-                    end += sum_of_squares(&x[terminal.wheels()]) * weights.wheel_momentum;
+                    let momenta = terminal.wheel_set().sum_of_squares(&x[terminal.wheels()]);
+                    end += momenta * weights.wheel_momentum;
                 }
                 match longest > 0.0 {
                     true => end + terminal.duration_share(x) * longest,

@@ -1,4 +1,8 @@
-//! The reaction wheels of a maneuver, as states and controls: momenta and torques of those that work.
+//! The reaction wheels of a maneuver, as states and controls: of each that works its momentum as a share of the most
+//! that it stores, and the rate of that share, which its torque decides.
+//!
+//! The optimizers relax bounds of one or less by 1e-8, and a maneuver's own measure of momentum may be a thousand
+//! times what a wheel stores.
 
 use std::sync::Arc;
 
@@ -6,94 +10,134 @@ use nalgebra::Vector3;
 use righting_multibody::External;
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
-use righting_scenario::wheels::{Wheel, reaction, stored};
+use righting_scenario::wheels::{Wheel, reaction};
 
 /// The wheels of a scenario. Failed ones keep what they store, so it is no state.
 #[derive(Clone)]
 pub(crate) struct Wheels {
     all: Arc<[Wheel]>,
-    working: Arc<[Wheel]>,
+    working: Arc<[Working]>,
     /// What the wheels that have failed store, body axes.
     failed: Vector3<f64>,
+}
+
+/// A wheel that works.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Working {
+    /// What it stores at its limit, body axes.
+    pub(crate) full: Vector3<f64>,
+    /// The length of that.
+    pub(crate) momentum_max: f64,
+    /// How fast its share can change.
+    pub(crate) rate_max: f64,
+    /// Its share at the start.
+    at_start: f64,
+}
+
+impl Working {
+    fn new(wheel: &Wheel) -> Self {
+        let momentum_max = wheel.momentum_max_n_m_s;
+        Self {
+            full: Vector3::from(wheel.axis) * momentum_max,
+            momentum_max,
+            rate_max: wheel.torque_max_n_m / momentum_max,
+            at_start: wheel.initial_momentum_n_m_s / momentum_max,
+        }
+    }
 }
 
 impl Wheels {
     pub(super) fn new(scenario: &Scenario) -> Self {
         let all = scenario.wheels();
-        let (failed, working): (Vec<Wheel>, Vec<Wheel>) =
-            all.iter().partition(|wheel| wheel.failed);
-        let failed = stored(&failed, &at_start(&failed));
-        Self { all: all.into(), working: working.into(), failed }
+        let failed = all.iter().filter(|wheel| wheel.failed);
+        let kept = failed.map(|wheel| Vector3::from(wheel.axis) * wheel.initial_momentum_n_m_s);
+        Self {
+            all: all.into(),
+            working: all.iter().filter(|wheel| !wheel.failed).map(Working::new).collect(),
+            failed: kept.sum(),
+        }
     }
 
     /// Those that work.
-    pub(crate) fn working(&self) -> &[Wheel] {
+    pub(crate) fn working(&self) -> &[Working] {
         &self.working
     }
 
-    /// The momenta at the start of those that work.
+    /// The shares at the start.
     pub(super) fn at_start(&self) -> Vec<f64> {
-        at_start(&self.working)
+        self.working.iter().map(|wheel| wheel.at_start).collect()
     }
 
-    /// What all store while those that work have these momenta, body axes.
-    pub(crate) fn stored<T: Scalar>(&self, momenta: &[T]) -> Vector3<T> {
-        let working = stored(&self.working, momenta);
+    /// What all store with these shares, body axes.
+    pub(crate) fn stored<T: Scalar>(&self, shares: &[T]) -> Vector3<T> {
+        let working = self.sum(shares);
         Vector3::from_fn(|i, _| working[i] + self.failed[i])
     }
 
-    /// Momenta of those that work with what failed ones keep in between.
-    pub(crate) fn all_momenta(&self, momenta: &[f64]) -> Vec<f64> {
-        self.with_failed(momenta, |wheel| wheel.initial_momentum_n_m_s)
+    /// The sum of the squares of momenta of these shares, or of torques that give these rates.
+    pub(super) fn sum_of_squares<T: Scalar>(&self, shares: &[T]) -> T {
+        let squares = shares.iter().zip(&*self.working);
+        squares.fold(T::from(0.0), |sum, (&share, wheel)| {
+            sum + share * share * wheel.momentum_max.powi(2)
+        })
     }
 
-    /// Torques of those that work with nothing for failed ones in between.
-    pub(crate) fn all_torques(&self, torques: &[f64]) -> Vec<f64> {
-        self.with_failed(torques, |_| 0.0)
+    /// Momenta of these shares, with what failed ones keep in between.
+    pub(crate) fn momenta(&self, shares: &[f64]) -> Vec<f64> {
+        self.of_all(shares, |wheel| wheel.initial_momentum_n_m_s)
     }
 
-    fn with_failed(&self, working: &[f64], failed: impl Fn(&Wheel) -> f64) -> Vec<f64> {
-        let mut working = working.iter();
+    /// Torques that give these rates, with nothing for failed ones in between.
+    pub(crate) fn torques(&self, rates: &[f64]) -> Vec<f64> {
+        self.of_all(rates, |_| 0.0)
+    }
+
+    fn of_all(&self, shares: &[f64], failed: impl Fn(&Wheel) -> f64) -> Vec<f64> {
+        let mut shares = shares.iter();
         let value = |wheel: &Wheel| match wheel.failed {
             true => failed(wheel),
-            false => *working.next().expect("one a wheel that works"),
+            false => wheel.momentum_max_n_m_s * shares.next().expect("one a wheel that works"),
         };
         self.all.iter().map(value).collect()
     }
 
-    /// Takes off the torques of a step of length `step_s` what the optimizers let pass the limits of torque and
-    /// momentum: as bounds of variables they are relaxed by 1e-8 of a maneuver's own measures, which may be much
-    /// of what a wheel has.
-    pub(crate) fn keep_within(&self, momenta: &[f64], torques: &mut [f64], step_s: f64) {
-        for ((torque, momentum), wheel) in torques.iter_mut().zip(momenta).zip(&*self.working) {
-            let most = wheel.momentum_max_n_m_s;
-            let reached = (momentum + step_s * *torque).clamp(-most, most);
-            *torque =
-                ((reached - momentum) / step_s).clamp(-wheel.torque_max_n_m, wheel.torque_max_n_m);
+    /// The shares that these momenta of all wheels are; failed ones have none.
+    pub(crate) fn shares(&self, momenta: &[f64]) -> Vec<f64> {
+        let all = self.all.iter().zip(momenta).filter(|(wheel, _)| !wheel.failed);
+        all.map(|(wheel, momentum)| momentum / wheel.momentum_max_n_m_s).collect()
+    }
+
+    /// Takes off the rates of a step of length `step_s` what the optimizers let pass the limits.
+    pub(crate) fn keep_within(&self, shares: &[f64], rates: &mut [f64], step_s: f64) {
+        for ((rate, share), wheel) in rates.iter_mut().zip(shares).zip(&*self.working) {
+            let reached = (share + step_s * *rate).clamp(-1.0, 1.0);
+            *rate = ((reached - share) / step_s).clamp(-wheel.rate_max, wheel.rate_max);
         }
     }
 
-    /// What acts from outside, and what the wheels do that have so much in store (body axes) and give these torques,
-    /// where the base turns at `angular_rate`.
+    /// What acts from outside, and what the wheels do that have so much in store (body axes) and whose shares have
+    /// these rates, where the base turns at `angular_rate`.
     pub(super) fn beside<T: Scalar>(
         &self,
         external: Option<External<T>>,
         angular_rate: &Vector3<T>,
         in_store: &Vector3<T>,
-        torques: &[T],
+        rates: &[T],
     ) -> Option<External<T>> {
         if self.all.is_empty() {
             return external;
         }
-        let given = stored(&self.working, torques);
-        let reaction = reaction(angular_rate, in_store, &given);
+        let reaction = reaction(angular_rate, in_store, &self.sum(rates));
         Some(match external {
             None => External { torque: reaction, gravity_gradient: None },
             Some(external) => External { torque: external.torque + reaction, ..external },
         })
     }
-}
 
-fn at_start(wheels: &[Wheel]) -> Vec<f64> {
-    wheels.iter().map(|wheel| wheel.initial_momentum_n_m_s).collect()
+    fn sum<T: Scalar>(&self, shares: &[T]) -> Vector3<T> {
+        let zero = Vector3::from_element(T::from(0.0));
+        self.working.iter().zip(shares).fold(zero, |sum, (wheel, &share)| {
+            Vector3::from_fn(|i, _| sum[i] + share * wheel.full[i])
+        })
+    }
 }

@@ -47,18 +47,17 @@ impl InitialGuesses<'_> {
             let posture = self.coordinates.joint_angles(guess.states.row(node)).to_vec();
             let of_failed = self.coordinates.wheel_set().stored(&vec![0.0; wheels.len()]);
             let wanted = here.to_body(&total) - system.locked_inertia(&posture) * rate - of_failed;
-            let momenta = self.least_momenta(&wanted);
+            let shares = self.least_shares(&wanted);
             let row = guess.states.row_mut(node);
             for (index, wheel) in wheels.iter().enumerate() {
-                let most = wheel.torque_max_n_m * step_s;
-                let reached = momenta[index].clamp(before[index] - most, before[index] + most);
-                row[states.start + index] =
-                    reached.clamp(-wheel.momentum_max_n_m_s, wheel.momentum_max_n_m_s);
+                let most = wheel.rate_max * step_s;
+                let reached = shares[index].clamp(before[index] - most, before[index] + most);
+                row[states.start + index] = reached.clamp(-1.0, 1.0);
             }
             let after = row[states.clone()].to_vec();
-            let torques = &mut guess.controls.row_mut(node - 1)[self.coordinates.first_wheel()..];
-            for (torque, (after, before)) in torques.iter_mut().zip(after.iter().zip(&before)) {
-                *torque = (after - before) / step_s;
+            let rates = &mut guess.controls.row_mut(node - 1)[self.coordinates.first_wheel()..];
+            for (rate, (after, before)) in rates.iter_mut().zip(after.iter().zip(&before)) {
+                *rate = (after - before) / step_s;
             }
             before = after;
         }
@@ -75,32 +74,30 @@ impl InitialGuesses<'_> {
         let posture = &self.scenario.initial().joint_angles_rad;
         let inertia = self.scenario.system().model.locked_inertia(posture);
         let needed = inertia * slew.axis * slew.angle_rad.abs().max(smallest_rad);
-        let momenta = self.least_momenta(&needed);
-        let stored: Vector3<f64> = wheels
-            .iter()
-            .zip(momenta.iter())
-            .map(|(wheel, momentum)| Vector3::from(wheel.axis) * *momentum)
-            .sum();
+        let shares = self.least_shares(&needed);
+        let pairs = wheels.iter().zip(shares.iter());
+        let stored: Vector3<f64> = pairs.clone().map(|(wheel, share)| wheel.full * *share).sum();
         let duration_s = self.scenario.horizon().duration_s;
-        let is_within = wheels.iter().zip(momenta.iter()).all(|(wheel, momentum)| {
-            PEAK_RATE * momentum.abs() <= wheel.momentum_max_n_m_s * duration_s
-                && PEAK_TORQUE * momentum.abs() <= wheel.torque_max_n_m * duration_s.powi(2)
+        let is_within = pairs.clone().all(|(wheel, share)| {
+            PEAK_RATE * share.abs() <= duration_s
+                && PEAK_TORQUE * share.abs() <= wheel.rate_max * duration_s.powi(2)
         });
         let is_along = (stored - needed).norm() <= STRAY * needed.norm();
         (is_along && is_within).then(|| {
-            let squares = momenta.norm_squared();
+            let squares: f64 =
+                pairs.map(|(wheel, share)| (wheel.momentum_max * share).powi(2)).sum();
             REST_TO_REST * squares / duration_s.powi(3) / REFERENCE_INTERVAL_S
         })
     }
 
-    /// The smallest momenta of the wheels that work that are as near to a vector in body axes as they can be.
-    fn least_momenta(&self, wanted: &Vector3<f64>) -> DVector<f64> {
+    /// The smallest shares of the wheels that work whose momentum is as near to a vector in body axes as it can be.
+    fn least_shares(&self, wanted: &Vector3<f64>) -> DVector<f64> {
         let wheels = self.coordinates.wheel_set().working();
-        let columns: Vec<Vector3<f64>> = wheels.iter().map(|wheel| wheel.axis.into()).collect();
-        let axes = Matrix3xX::from_columns(&columns);
-        let decomposition = axes.svd(true, true);
+        let columns: Vec<Vector3<f64>> = wheels.iter().map(|wheel| wheel.full).collect();
+        let full = Matrix3xX::from_columns(&columns);
+        let decomposition = full.svd(true, true);
         let most = decomposition.singular_values.max();
         let solved = decomposition.solve(wanted, RANK * most);
-        solved.map_or_else(|_| DVector::zeros(wheels.len()), |momenta| momenta)
+        solved.map_or_else(|_| DVector::zeros(wheels.len()), |shares| shares)
     }
 }
