@@ -98,6 +98,6 @@ impl InitialGuesses<'_> {
         let decomposition = full.svd(true, true);
         let most = decomposition.singular_values.max();
         let solved = decomposition.solve(wanted, RANK * most);
-        solved.map_or_else(|_| DVector::zeros(wheels.len()), |shares| shares)
+        solved.unwrap_or_else(|_| DVector::zeros(wheels.len()))
     }
 }
