@@ -8,7 +8,7 @@ use righting_report::{open_loop_errors_svg, slew_limits_svg, slews_html, slews_s
 use righting_scenario::file_io;
 use righting_sweep::{CaseStatus, Slews, Summary, SweepFolder, Table};
 
-use super::show;
+use super::{kept_plans, show};
 use crate::failure::Failure;
 
 /// Join the records of all shards in one table.
@@ -30,7 +30,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes the results of the records that there are, and prints their summary.
 pub fn merge(folder: &SweepFolder, json: bool) -> Result<(), Failure> {
     let table = Table::read(folder)?;
-    let slews = Slews::of(&table, Slews::MOST_POINTS);
+    kept_plans::write_pages(folder)?;
+    let mut slews = Slews::of(&table, Slews::MOST_POINTS);
+    if let Some(slews) = &mut slews {
+        kept_plans::link_pages(slews, folder);
+    }
     let summary = Summary::of(&table, slews.as_ref());
     let mut files: Vec<PathBuf> = Vec::new();
     let mut write = |name: &str, print: &dyn Fn(&mut (dyn Write + Send)) -> io::Result<()>| {

@@ -1,5 +1,6 @@
 //! `righting sweep`: many maneuvers, on one machine or on many.
 
+mod kept_plans;
 mod merge;
 mod plan;
 mod progress;
@@ -48,6 +49,10 @@ struct Whole {
     /// Go on with the records that the folder has, doing only what is missing.
     #[arg(long)]
     resume: bool,
+    /// Keep the plan of every case that is done now, in DIR/plans/CASE_ID with its page (0.8 MB a case);
+    /// points of slews.html open it.
+    #[arg(long)]
+    keep_plans: bool,
     /// Print the summary as one JSON object.
     #[arg(long)]
     json: bool,
@@ -97,7 +102,7 @@ fn run_whole(whole: &Whole) -> Result<(), Failure> {
     let sweep = plan::read(&whole.file)?;
     let folder = SweepFolder::at(OutputFolder::open(&whole.out)?.path());
     folder.begin(&sweep, crate::build::VERSION, whole.resume)?;
-    run::run_shard(&folder, &sweep, Shard::WHOLE, whole.jobs)?;
+    run::run_shard(&folder, &sweep, Shard::WHOLE, whole.jobs, whole.keep_plans)?;
     merge::merge(&folder, whole.json)
 }
 

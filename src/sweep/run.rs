@@ -24,13 +24,16 @@ pub struct Arguments {
     /// Number of worker processes; one a core by default.
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    /// Keep the plan of every case that is done now, in DIR/plans.
+    #[arg(long)]
+    keep_plans: bool,
 }
 
 /// Runs the shard.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = super::planned(&arguments.folder)?;
     let sweep = folder.sweep()?;
-    run_shard(&folder, &sweep, arguments.shard, arguments.jobs)
+    run_shard(&folder, &sweep, arguments.shard, arguments.jobs, arguments.keep_plans)
 }
 
 /// Does what is missing of a shard.
@@ -39,11 +42,13 @@ pub fn run_shard(
     sweep: &Sweep,
     shard: Shard,
     jobs: Option<NonZeroUsize>,
+    keep_plans: bool,
 ) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let program = std::env::current_exe()
         .map_err(|error| SweepError::Worker { reason: error.to_string() })?;
     let run = ShardRun::open(folder, sweep, shard)?;
+    let run = if keep_plans { run.keeping_plans(folder.plans()) } else { run };
     let left = run.left();
     if left == 0 {
         return Ok(());

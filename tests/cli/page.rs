@@ -230,6 +230,44 @@ fn the_page_of_a_sweep_draws_every_case_and_says_which_is_which() {
 }
 
 #[test]
+fn the_page_of_a_sweep_filters_what_varies_and_opens_the_plans_that_were_kept() {
+    let mut durations = small_sweep(2);
+    durations["vary"]
+        .as_array_mut()
+        .expect("a list")
+        .push(json!({ "field": "horizon.duration_s", "name": "duration", "values": [20, 25] }));
+    let folder = folder_with_sweep(&durations);
+    assert_eq!(sweep(folder.path(), "out", &["--keep-plans"]).code, 0);
+    let out = folder.path().join("out");
+    assert_eq!(files_in(&out.join("plans")).len(), 8);
+    for size in [[1400, 900], PHONE] {
+        let mut page = Browser::open(&out.join("slews.html"), size);
+        page.wait_until("slews.state().drawn === 8");
+        page.value("slews.filter(0, '25'), 0");
+        page.wait_until("slews.state().drawn === 4");
+        let first = "slews.data.points.findIndex(point => point.settings[0] === '25')";
+        let place = numbers(&page.value(&format!("slews.place({first})")));
+        page.click_at([place[0], place[1]]);
+        let card = page.value("document.querySelector('#card').innerText");
+        let card = card.as_str().expect("text");
+        assert!(card.contains("duration") && card.contains("25"), "{card}");
+        let target = page.value("document.querySelector('#plan').getAttribute('href')");
+        let target = target.as_str().expect("a link");
+        let plan = out.join(target);
+        assert!(target.starts_with("plans/") && plan.exists(), "{target}");
+        let kept = verify_directory(plan.parent().expect("a folder")).expect("a plan");
+        assert_eq!(kept.scenario.horizon().duration_s, 25.0);
+        page.value("slews.filter(0, ''), 0");
+        // All of them, and the ring around the one that is selected.
+        page.wait_until("slews.state().drawn === 8 + 1");
+        assert_eq!(page.complaints(), [] as [String; 0]);
+    }
+    // Nobody asked for plans: none are kept, and no point has one.
+    assert_eq!(sweep(folder.path(), "bare", &[]).code, 0);
+    assert!(!folder.path().join("bare/plans").exists());
+}
+
+#[test]
 fn the_page_is_made_again_from_a_folder_and_says_what_is_wrong_in_it() {
     let folder = folder_with(&small_slew());
     let run = righting(

@@ -26,12 +26,14 @@ fn slews() -> Slews {
             for angle_deg in [10.0, 20.0] {
                 slews.points.push(SlewPoint {
                     case_id: CaseId(0),
+                    settings: vec![json!(axis), json!(time_s)],
                     axis,
                     angle_deg,
                     succeeded: !(fails && angle_deg == 20.0),
                     status: CaseStatus::Flown(Flown::Flown),
                     attitude_error: f64::NAN,
                     objective: 1e-6 * angle_deg,
+                    plan_page: None,
                 });
             }
             slews.limits.push(SlewLimit {
@@ -66,6 +68,18 @@ fn figure_and_page_say_that_they_show_a_sample() {
         assert!(shown.contains("980000 of 1000000 slews succeed"));
         assert!(shown.contains("drawn: 11 of 980000 that succeed, 1 of 20000 that failed"));
     }
+}
+
+#[test]
+fn the_page_of_slews_names_what_else_varies_and_where_plans_are() {
+    let mut some = slews();
+    some.points[0].plan_page = Some("plans/0000000000000000/report.html".to_owned());
+    some.columns[0].field = "maneuver.axis".to_owned();
+    let page = slews_html("some", &some);
+    assert!(page.contains("\"columns\":[\"time\\u003cs>\"]"), "the axis is no filter");
+    assert!(page.contains("\"settings\":[\"30\"]"));
+    assert!(page.contains("\"plan_page\":\"plans/0000000000000000/report.html\""));
+    assert_eq!(page.matches("\"plan_page\":null").count(), 11);
 }
 
 #[test]

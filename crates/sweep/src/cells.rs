@@ -100,6 +100,14 @@ impl Cell {
     }
 }
 
+impl Column {
+    /// A setting as the table shows it.
+    pub fn shown(&self, setting: &Value) -> String {
+        let cells: Vec<String> = cells_of(self, setting).iter().map(Cell::to_text).collect();
+        cells.join(", ")
+    }
+}
+
 /// The columns of a setting.
 pub(crate) fn heads_of(column: &Column) -> Vec<Head> {
     let Column { name, kind, .. } = column;

@@ -1,16 +1,18 @@
 //! One case after the other, in one thread.
 
+use std::io;
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use righting_ocp::Control;
 use righting_planner::{PlanError, Planned, Planner};
-use righting_results::{Status, Trajectory};
+use righting_results::{SOLUTION_FILE, Solution, Status, TRAJECTORY_FILE, Trajectory};
 use righting_scenario::Scenario;
 use righting_verifier::simulate;
 use serde_json::Value;
 
+use crate::case::CaseId;
 use crate::outcome::{CaseStatus, Flown, Outcome, Trouble};
 use crate::worker::Setup;
 
@@ -24,16 +26,25 @@ pub(crate) struct Evaluator {
     flown: Option<Result<Trajectory, Outcome>>,
     /// The scenario to plan once and fly in every case; none if every case is planned.
     planned: Option<Value>,
+    /// Where plans are kept; none if they are not.
+    plans: Option<PathBuf>,
 }
 
 impl Evaluator {
     pub fn new(setup: Setup) -> Self {
         let time_limit = Duration::from_secs_f64(setup.time_limit_s);
-        Self { time_limit, flown: None, planned: setup.planned }
+        Self { time_limit, flown: None, planned: setup.planned, plans: setup.plans }
     }
 
     /// What a case comes to, and how long its plan took.
-    pub fn evaluate(&mut self, scenario: &Value) -> (Outcome, Duration) {
+    ///
+    /// # Errors
+    /// Those of writing its plan, where plans are kept.
+    pub fn evaluate(
+        &mut self,
+        case_id: CaseId,
+        scenario: &Value,
+    ) -> io::Result<(Outcome, Duration)> {
         let started = Instant::now();
         let outcome = match checked(scenario) {
             Err(refused) => refused,
@@ -43,36 +54,18 @@ impl Evaluator {
                     self.planned = Some(base);
                     outcome
                 }
-                None => self.planned_and_verified(&scenario).map_or_else(|o| o, |(o, _)| o),
+                None => match self.plan(&scenario) {
+                    Err(outcome) => outcome,
+                    Ok(planned) => {
+                        if let Some(plans) = &self.plans {
+                            keep(&plans.join(case_id.to_string()), &planned)?;
+                        }
+                        outcome_of(&planned.solution)
+                    }
+                },
             },
         };
-        (outcome, started.elapsed())
-    }
-
-    /// Plans and verifies; the trajectory too, where it passed.
-    fn planned_and_verified(
-        &self,
-        scenario: &Scenario,
-    ) -> Result<(Outcome, Option<Trajectory>), Outcome> {
-        let Planned { solution, trajectory } = self.plan(scenario)?;
-        let verified = solution.verification.passed;
-        let failed = solution.verification.failures().next();
-        let reason = match failed {
-            Some(check) => Some(check.to_string()),
-            None if verified => None,
-            None => solution.notes.first().cloned(),
-        };
-        let outcome = Outcome {
-            status: CaseStatus::Optimizer(solution.status),
-            verified,
-            attitude_error: solution.terminal.attitude_error,
-            final_rate_deg_s: solution.terminal.angular_rate_deg_s,
-            joint_rate_deg_s: solution.terminal.joint_rate_deg_s,
-            objective: solution.objective,
-            iterations: solution.iterations,
-            reason: reason.filter(|reason| !reason.is_empty()),
-        };
-        Ok((outcome, verified.then_some(trajectory)))
+        Ok((outcome, started.elapsed()))
     }
 
     fn plan(&self, scenario: &Scenario) -> Result<Planned, Outcome> {
@@ -116,13 +109,43 @@ impl Evaluator {
     }
 
     fn plan_to_fly(&self, base: &Value) -> Result<Trajectory, Outcome> {
-        let (outcome, plan) = self.planned_and_verified(&checked(base)?)?;
-        plan.ok_or_else(|| {
-            let reason = outcome.reason.unwrap_or_default();
-            let reason = format!("no plan to fly: {}: {reason}", outcome.status);
-            Outcome::of_trouble(Trouble::NotPlanned, reason)
-        })
+        let Planned { solution, trajectory } = self.plan(&checked(base)?)?;
+        if solution.verification.passed {
+            return Ok(trajectory);
+        }
+        let outcome = outcome_of(&solution);
+        let reason = outcome.reason.unwrap_or_default();
+        let reason = format!("no plan to fly: {}: {reason}", outcome.status);
+        Err(Outcome::of_trouble(Trouble::NotPlanned, reason))
     }
+}
+
+fn outcome_of(solution: &Solution) -> Outcome {
+    let verified = solution.verification.passed;
+    let failed = solution.verification.failures().next();
+    let reason = match failed {
+        Some(check) => Some(check.to_string()),
+        None if verified => None,
+        None => solution.notes.first().cloned(),
+    };
+    Outcome {
+        status: CaseStatus::Optimizer(solution.status),
+        verified,
+        attitude_error: solution.terminal.attitude_error,
+        final_rate_deg_s: solution.terminal.angular_rate_deg_s,
+        joint_rate_deg_s: solution.terminal.joint_rate_deg_s,
+        objective: solution.objective,
+        iterations: solution.iterations,
+        reason: reason.filter(|reason| !reason.is_empty()),
+    }
+}
+
+/// Writes a plan to a folder of its own, as `righting solve` does but for what shows it.
+fn keep(folder: &Path, planned: &Planned) -> io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    let Planned { solution, trajectory } = planned;
+    trajectory.write_csv(&folder.join(TRAJECTORY_FILE)).map_err(io::Error::other)?;
+    solution.write_json(&folder.join(SOLUTION_FILE)).map_err(io::Error::other)
 }
 
 /// The scenario, or the case refused.

@@ -3,6 +3,7 @@
 //! ```text
 //! DIR/sweep.json           the sweep with its base scenario inline: enough for any machine
 //! DIR/records/1-of-1.jsonl the records of a shard
+//! DIR/plans/CASE_ID/       the plan of a case, where plans are kept
 //! DIR/results.csv, …       what a merge makes of them
 //! ```
 
@@ -25,6 +26,7 @@ use crate::sweep::Sweep;
 const SCHEMA: &str = "righting.sweep/1";
 const MANIFEST: &str = "sweep.json";
 const RECORDS: &str = "records";
+const PLANS: &str = "plans";
 
 /// The contents of `sweep.json`.
 #[derive(Serialize, Deserialize)]
@@ -88,6 +90,11 @@ impl SweepFolder {
             writeln!(writer)
         })?;
         Ok(())
+    }
+
+    /// The folder of the plans that are kept, one a case; there or not.
+    pub fn plans(&self) -> PathBuf {
+        self.path.join(PLANS)
     }
 
     /// The planned sweep.

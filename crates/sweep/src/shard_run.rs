@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::process::Command;
 use std::thread;
 use std::time::Duration;
@@ -28,6 +29,7 @@ pub struct ShardRun<'a> {
     journal: Journal,
     done: HashSet<CaseId>,
     left: usize,
+    plans: Option<PathBuf>,
 }
 
 /// Who works.
@@ -47,12 +49,17 @@ impl<'a> ShardRun<'a> {
     /// Those of [`SweepFolder::journal`] and [`SweepFolder::done`].
     pub fn open(folder: &SweepFolder, sweep: &'a Sweep, shard: Shard) -> Result<Self, SweepError> {
         let (journal, done) = (folder.journal(shard)?, folder.done(shard)?);
-        let mut run = Self { sweep, shard, journal, done, left: 0 };
+        let mut run = Self { sweep, shard, journal, done, left: 0, plans: None };
         run.left = match run.done.is_empty() {
             true => shard.indices(sweep.len()).count(),
             false => run.missing().count(),
         };
         Ok(run)
+    }
+
+    /// Keeps the plans of the cases that are left in a folder, such as [`SweepFolder::plans`].
+    pub fn keeping_plans(self, plans: PathBuf) -> Self {
+        Self { plans: Some(plans), ..self }
     }
 
     /// How many cases were recorded before.
@@ -79,7 +86,7 @@ impl<'a> ShardRun<'a> {
             return Ok(0);
         }
         let cores = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let setup = Setup::of(self.sweep);
+        let setup = Setup { plans: self.plans.clone(), ..Setup::of(self.sweep) };
         let pool = Pool {
             command: workers.command,
             jobs: workers.jobs.unwrap_or(cores).get().min(self.left),

@@ -34,6 +34,8 @@ pub struct Slews {
 pub struct SlewPoint {
     /// Which case.
     pub case_id: CaseId,
+    /// The settings of the columns other than the angle.
+    pub settings: Vec<Value>,
     /// Unit axis, body axes.
     pub axis: [f64; 3],
     /// Angle, deg.
@@ -46,6 +48,8 @@ pub struct SlewPoint {
     pub attitude_error: f64,
     /// Value of the objective.
     pub objective: f64,
+    /// The page of its plan, relative to the sweep's folder, where it is kept.
+    pub plan_page: Option<String>,
 }
 
 /// How far one combination goes.
@@ -68,7 +72,12 @@ pub struct SlewLimit {
 impl Slews {
     /// Whether slews about several axes are among what varies.
     pub fn has_axes(&self) -> bool {
-        self.columns.iter().any(|column| column.field == AXIS)
+        self.columns.iter().any(Self::is_axis)
+    }
+
+    /// Whether a column is the axis itself.
+    pub fn is_axis(column: &Column) -> bool {
+        column.field == AXIS
     }
 
     /// So many points a figure and a page can be opened with; a million are 200 MB of either.
@@ -99,6 +108,7 @@ impl Slews {
             };
             let mut settings = case.values;
             settings.remove(angle_at);
+            let point_settings = settings.clone();
             let limit =
                 *known.entry(Value::from(settings.clone()).to_string()).or_insert_with(|| {
                     limits.push(SlewLimit::of(settings, axis));
@@ -112,12 +122,14 @@ impl Slews {
                 index,
                 SlewPoint {
                     case_id: case.id,
+                    settings: point_settings,
                     axis,
                     angle_deg,
                     succeeded,
                     status: row.status,
                     attitude_error: row.attitude_error,
                     objective: row.objective,
+                    plan_page: None,
                 },
             );
         }

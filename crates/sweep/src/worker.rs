@@ -11,6 +11,7 @@
 //! behind.
 
 use std::io::{self, BufRead, Write};
+use std::path::PathBuf;
 use std::process;
 use std::sync::mpsc;
 use std::thread;
@@ -32,6 +33,10 @@ pub struct Setup {
     pub time_limit_s: f64,
     /// The scenario to plan once and fly in every case; none if every case is planned.
     pub planned: Option<Value>,
+    /// The folder that takes the plans of the cases, each in a folder that its case names; none if they are not
+    /// kept.
+    #[serde(default)]
+    pub plans: Option<PathBuf>,
 }
 
 /// A case to evaluate.
@@ -71,14 +76,14 @@ impl Setup {
             Evaluation::Plan => None,
             Evaluation::OpenLoop => Some(sweep.base().clone()),
         };
-        Self { time_limit_s: sweep.case_time_limit_s(), planned }
+        Self { time_limit_s: sweep.case_time_limit_s(), planned, plans: None }
     }
 }
 
 /// Works until the input ends.
 ///
 /// # Errors
-/// Those of reading and writing; what is read must be what a [`Pool`](crate::Pool) writes.
+/// Those of reading and writing, also of a plan that is to be kept; what is read must be what a [`Pool`](crate::Pool) writes.
 pub fn serve() -> io::Result<()> {
     let (sender, lines) = mpsc::channel::<String>();
     thread::spawn(move || {
@@ -96,7 +101,7 @@ pub fn serve() -> io::Result<()> {
     send(&Ready { ready: true })?;
     for line in lines {
         let Task { case_id, scenario } = serde_json::from_str(&line)?;
-        let (outcome, took) = evaluator.evaluate(&scenario);
+        let (outcome, took) = evaluator.evaluate(case_id, &scenario)?;
         send(&Answer { case_id, outcome, solve_s: took.as_secs_f64() })?;
     }
     Ok(())

@@ -26,7 +26,7 @@ while read -r task; do
 done
 "#;
 
-const SETUP: Setup = Setup { time_limit_s: 1.0, planned: None };
+const SETUP: Setup = Setup { time_limit_s: 1.0, planned: None, plans: None };
 
 struct Ran {
     records: BTreeMap<u64, Record>,

@@ -1,4 +1,4 @@
-/*! Generated from sources 360c277cfec6934eb9283b2929d50dc4cf2dfef64b75143e6303de0aebddd59b */
+/*! Generated from sources eea7fef8b586df9b94318634319b07ec5c47cca7a9ef93ca505f959fd19f3cf7 */
 /*!
 three
 

@@ -46,6 +46,7 @@ export class SlewCloud {
   private readonly crosses: Points;
   private readonly mark = marks([new Vector3()], ring, 20);
   private coloring: Coloring = "outcome";
+  private isShown: (index: number) => boolean = () => true;
 
   constructor(private readonly element: HTMLElement, private readonly data: SlewsData) {
     this.viewport = new Viewport(element);
@@ -67,6 +68,15 @@ export class SlewCloud {
     this.viewport.requestDraw();
   }
 
+  /** Draws only some of the points. */
+  filter(isShown: (index: number) => boolean): void {
+    this.isShown = isShown;
+    place(this.discs, this.chosen(true).map((i) => this.places[i]));
+    place(this.crosses, this.chosen(false).map((i) => this.places[i]));
+    this.paint();
+    this.viewport.requestDraw();
+  }
+
   /** Puts a ring around a point, or around none. */
   select(index: number | null): void {
     this.mark.visible = index !== null;
@@ -78,6 +88,7 @@ export class SlewCloud {
   pick(x: number, y: number, kind: keyof typeof REACH): number | null {
     let best: { index: number; distance: number; depth: number } | null = null;
     for (let index = 0; index < this.places.length; index++) {
+      if (!this.isShown(index)) continue;
       const [px, py, depth] = this.placeOf(index);
       const distance = Math.round(Math.hypot(px - x, py - y) / 3);
       if (3 * distance > REACH[kind]) continue;
@@ -100,12 +111,12 @@ export class SlewCloud {
   /** How many other slews have the same rotation vector. */
   othersAt(index: number): number {
     const place = this.places[index];
-    return this.places.filter((other) => other.distanceTo(place) < 1e-6).length - 1;
+    return this.places.filter((other, i) => this.isShown(i) && other.distanceTo(place) < 1e-6).length - 1;
   }
 
   private chosen(succeeded: boolean): number[] {
     const indices = this.data.points.map((_, i) => i);
-    return indices.filter((i) => this.data.points[i].succeeded === succeeded);
+    return indices.filter((i) => this.isShown(i) && this.data.points[i].succeeded === succeeded);
   }
 
   private addSpheres(): void {
@@ -149,12 +160,20 @@ function marks(places: Vector3[], draw: Draw, size: number): Points {
     context.beginPath();
     draw(context);
   }
-  const geometry = new BufferGeometry().setFromPoints(places);
-  geometry.setAttribute("color", new Float32BufferAttribute(new Float32Array(3 * places.length), 3));
   const material = new PointsMaterial({
     map: new CanvasTexture(canvas), size, sizeAttenuation: false, vertexColors: true, alphaTest: 0.4,
   });
-  return new Points(geometry, material);
+  const points = new Points(new BufferGeometry(), material);
+  place(points, places);
+  return points;
+}
+
+/** Puts points where they are, white until they are dyed. */
+function place(points: Points, places: Vector3[]): void {
+  points.geometry.dispose();
+  points.geometry = new BufferGeometry().setFromPoints(places);
+  points.geometry.setAttribute("color", new Float32BufferAttribute(new Float32Array(3 * places.length), 3));
+  points.visible = places.length > 0;
 }
 
 function dye(points: Points, colors: string[]): void {

@@ -2,6 +2,8 @@
 export interface SlewsData {
   name: string;
   subtitle: string;
+  /** Names of what varies beside axis and angle. */
+  columns: string[];
   points: SlewPoint[];
   /** Colours from the least objective to the largest, evenly over its logarithm. */
   ramp: string[];
@@ -11,6 +13,8 @@ export interface SlewsData {
 
 export interface SlewPoint {
   case_id: string;
+  /** One a column, as tables show them. */
+  settings: string[];
   /** Unit vector, body axes. */
   axis: [number, number, number];
   angle_deg: number;
@@ -18,6 +22,8 @@ export interface SlewPoint {
   succeeded: boolean;
   attitude_error_deg: number | null;
   objective: number | null;
+  /** The page of its plan, relative to this one, where it is kept. */
+  plan_page: string | null;
 }
 
 export function readSlews(): SlewsData {

@@ -3,6 +3,7 @@ import { byId, element } from "./element";
 import { short } from "./format";
 import { SlewCloud, type Coloring } from "./slew-cloud";
 import { readSlews } from "./slew-data";
+import { SlewFilters } from "./slew-filters";
 import { VIEWS, type ViewName } from "./viewport";
 
 const data = readSlews();
@@ -55,6 +56,7 @@ function select(cloud: SlewCloud, index: number | null): void {
     ["case_id", slew.case_id],
     ["axis", slew.axis.map((part) => short(part, 3)).join("  ")],
     ["angle", `${Number(slew.angle_deg.toPrecision(6))}°`],
+    ...data.columns.map((name, i) => [name, slew.settings[i]]),
     ["status", `${slew.status}, ${slew.succeeded ? "verified" : "failed"}`],
     ["attitude error", slew.attitude_error_deg === null ? "none" : `${short(slew.attitude_error_deg, 3)}°`],
     ["objective", slew.objective === null ? "none" : slew.objective.toExponential(3)],
@@ -63,6 +65,9 @@ function select(cloud: SlewCloud, index: number | null): void {
   byId("facts").replaceChildren(
     ...facts.flatMap(([name, value]) => [element("dt", "", name), element("dd", "", value)]),
   );
+  const link = byId<HTMLAnchorElement>("plan");
+  link.hidden = slew.plan_page === null;
+  if (slew.plan_page !== null) link.href = slew.plan_page;
 }
 
 function connect(cloud: SlewCloud): void {
@@ -87,6 +92,8 @@ function connect(cloud: SlewCloud): void {
 /** For the console and for tests: the page by program. */
 const slews = {
   data,
+  /** Shows only the slews with a setting; all again with "". */
+  filter: (column: number, setting: string) => filters.choose(column, setting),
   setColoring,
   /** Where a point is in the window, CSS pixels. */
   place: (index: number) => cloud?.placeOf(index).slice(0, 2) ?? null,
@@ -101,3 +108,7 @@ for (const coloring of ["outcome", "objective"] as const) {
   byId(`color-${coloring}`).addEventListener("click", () => setColoring(coloring));
 }
 if (cloud) connect(cloud);
+const filters = new SlewFilters(byId("filters"), data, (isShown) => {
+  if (selected !== null && !isShown(selected) && cloud) select(cloud, null);
+  cloud?.filter(isShown);
+});

@@ -1,7 +1,7 @@
 //! `slews.html`: the slews of a sweep to turn and to ask, in the shape that `page/src/slew-data.ts`
 //! mirrors.
 
-use righting_sweep::{SlewPoint, Slews};
+use righting_sweep::{Column, SlewPoint, Slews};
 use serde::Serialize;
 
 use super::{escaped, fill, in_script};
@@ -28,7 +28,9 @@ pub fn slews_html(name: &str, slews: &Slews) -> String {
 struct Data<'a> {
     name: &'a str,
     subtitle: String,
-    points: Vec<Point>,
+    /// Names of what varies beside axis and angle.
+    columns: Vec<&'a str>,
+    points: Vec<Point<'a>>,
     ramp: Vec<String>,
     objective: Scale,
 }
@@ -49,18 +51,27 @@ struct Tick {
 
 /// Numbers that are not finite become null.
 #[derive(Debug, Serialize)]
-struct Point {
+struct Point<'a> {
     case_id: String,
+    /// One a column, as tables show them.
+    settings: Vec<String>,
     axis: [f64; 3],
     angle_deg: f64,
     status: String,
     succeeded: bool,
     attitude_error_deg: f64,
     objective: f64,
+    plan_page: Option<&'a str>,
 }
 
 impl<'a> Data<'a> {
-    fn new(name: &'a str, slews: &Slews) -> Self {
+    fn new(name: &'a str, slews: &'a Slews) -> Self {
+        let columns: Vec<(usize, &Column)> = slews
+            .columns
+            .iter()
+            .enumerate()
+            .filter(|(_, column)| !Slews::is_axis(column))
+            .collect();
         let costs = costs(slews);
         let ticks = costs.ticks(5.0).into_iter().map(|(value, _)| Tick {
             share: (value - costs.low) / costs.span(),
@@ -72,17 +83,20 @@ impl<'a> Data<'a> {
                 Some(sample) => format!("{}; {sample}", subtitle(slews)),
                 None => subtitle(slews),
             },
-            points: slews.points.iter().map(Point::of).collect(),
+            columns: columns.iter().map(|(_, column)| column.name.as_str()).collect(),
+            points: slews.points.iter().map(|slew| Point::of(slew, &columns)).collect(),
             ramp: (0..COLORS).map(|i| style::ramp(i as f64 / (COLORS - 1) as f64)).collect(),
             objective: Scale { low: costs.low, high: costs.high, ticks: ticks.collect() },
         }
     }
 }
 
-impl Point {
-    fn of(slew: &SlewPoint) -> Self {
+impl<'a> Point<'a> {
+    fn of(slew: &'a SlewPoint, columns: &[(usize, &Column)]) -> Self {
+        let settings = columns.iter().map(|&(at, column)| column.shown(&slew.settings[at]));
         Self {
             case_id: slew.case_id.to_string(),
+            settings: settings.collect(),
             axis: slew.axis,
             angle_deg: slew.angle_deg,
             status: slew.status.to_string(),
@@ -90,6 +104,7 @@ impl Point {
             // The error is the sine of half the angle.
             attitude_error_deg: 2.0 * slew.attitude_error.asin().to_degrees(),
             objective: slew.objective,
+            plan_page: slew.plan_page.as_deref(),
         }
     }
 }
