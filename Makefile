@@ -90,7 +90,7 @@ paper: setup
 references:
 	scripts/in-environment.sh out/pinocchio "pin numpy" scripts/reference_dynamics.py
 
-# Hostile inputs of a fixed seed, 130,000 for each reader and 2,000 whole solves; each target says its counts.
+# Hostile inputs of a fixed seed, 130,000 for each of eight readers and 2,000 whole solves; each target says its counts.
 # FUZZ_SEED=7 make fuzz takes others.
 FUZZ_SEED ?= 1
 fuzz: setup

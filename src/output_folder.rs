@@ -9,6 +9,7 @@ use righting_scenario::file_io;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::json_path;
 
 /// A folder that was writable when it was opened.
 pub struct OutputFolder {
@@ -21,20 +22,22 @@ pub struct OutputFolder {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ResultFiles {
     /// The plan, node by node; where there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub trajectory: Option<PathBuf>,
     /// The outcome and everything else about the plan.
+    #[serde(serialize_with = "json_path::path")]
     pub solution: PathBuf,
     /// Figure of the base's attitude and rates.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub attitude: Option<PathBuf>,
     /// Figure of the joints.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub joints: Option<PathBuf>,
     /// The interactive page.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub report: Option<PathBuf>,
     /// All figures, in the order a reader wants them.
+    #[serde(serialize_with = "json_path::list")]
     pub figures: Vec<PathBuf>,
 }
 

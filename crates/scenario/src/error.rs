@@ -6,6 +6,7 @@ use std::{fmt, io};
 use righting_import::ImportError;
 
 use crate::file_kind::FileKind;
+use crate::json::on_one_line;
 
 /// Any failure of this crate that is the input's or the file system's fault.
 ///
@@ -217,12 +218,8 @@ impl std::error::Error for FieldError {}
 
 /// A file's name on one line: whoever writes control characters into a name gets them escaped.
 fn named(file: &Path) -> String {
-    let name = file.display().to_string();
-    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
-    match name.contains(char::is_control) {
-        true => name.chars().map(escaped).collect(),
-        false => name,
-    }
+    const LONGEST: usize = 500;
+    on_one_line(&file.display().to_string(), LONGEST)
 }
 
 /// An I/O error without the operating system's error number.

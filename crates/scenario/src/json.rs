@@ -99,7 +99,7 @@ pub fn shown_text(text: &str) -> String {
 }
 
 /// A text of so many characters at most; those that would move a terminal's cursor are escaped.
-fn on_one_line(text: &str, longest: usize) -> String {
+pub(crate) fn on_one_line(text: &str, longest: usize) -> String {
     let mut shown = String::new();
     for (place, c) in text.chars().enumerate() {
         if place == longest {
