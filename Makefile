@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel book bench bench-all starts page fmt lint setup
+.PHONY: references fuzz faults leaks deny sbom vendored demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel book bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -84,6 +84,46 @@ paper: setup
 	cargo build --release --locked
 	cargo run --release --locked --quiet -- figures --out out/paper
 	cargo run --release --locked --quiet -- sweep scenarios/sweeps/reach_2dof.json --resume --out out/paper/fig6_reach
+
+# References that scripts of other groups' libraries make, made again: docs/reliability.md. Gets a virtual environment
+# of its own.
+references:
+	scripts/in-environment.sh out/pinocchio "pin numpy" scripts/reference_dynamics.py
+
+# Hostile inputs of a fixed seed, 130,000 for each of eight readers and 2,000 whole solves; each target says its counts.
+# FUZZ_SEED=7 make fuzz takes others.
+FUZZ_SEED ?= 1
+fuzz: setup
+	cargo build --release --locked -p righting-fuzz
+	fuzz="$${CARGO_TARGET_DIR:-target}/release/righting-fuzz" && \
+		$$fuzz scenario system wheels sweep urdf trajectory journal --seed $(FUZZ_SEED) --inputs 130000 && \
+		$$fuzz solution --seed $(FUZZ_SEED) --inputs 130000 && \
+		$$fuzz solve --seed $(FUZZ_SEED) --inputs 2000
+
+# `solve` killed at every call by which it touches its folder; needs strace.
+faults: setup
+	cargo build --release --locked
+	scripts/kill_at_every_call.py --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# A thousand solves in one process: memory that grows, and with valgrind what nobody frees.
+leaks: setup
+	cargo build --release --locked -p righting-planner --example many_solves
+	solves="$${CARGO_TARGET_DIR:-target}/release/examples/many_solves" && $$solves 1000 && \
+		valgrind --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+		--error-exitcode=1 $$solves 1000
+
+# Licences, sources and duplicates by cargo-deny; the advisories need the network.
+deny:
+	cargo deny --all-features check licenses bans sources
+
+# The bill of materials of the program, CycloneDX.
+sbom:
+	@mkdir -p out
+	scripts/sbom.py > out/righting.cdx.json
+
+# The program from a copy of all that it is built from, without the network.
+vendored: setup
+	scripts/vendored-build.sh out/vendored
 
 bench:
 	scripts/bench.sh

@@ -17,6 +17,7 @@ mod fly;
 mod hint;
 mod import;
 mod interrupt;
+mod json_path;
 mod manpages;
 mod optimizer;
 mod output;

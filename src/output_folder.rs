@@ -1,5 +1,6 @@
 //! The folder that takes results: made and tried before minutes are spent on them.
 
+use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -8,30 +9,35 @@ use righting_scenario::file_io;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::json_path;
 
 /// A folder that was writable when it was opened.
 pub struct OutputFolder {
     folder: PathBuf,
+    /// Locked against other runs while this one may write, where it asked for that.
+    _lock: Option<File>,
 }
 
 /// The files of a solve, named as `--json` names them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ResultFiles {
     /// The plan, node by node; where there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub trajectory: Option<PathBuf>,
     /// The outcome and everything else about the plan.
+    #[serde(serialize_with = "json_path::path")]
     pub solution: PathBuf,
     /// Figure of the base's attitude and rates.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub attitude: Option<PathBuf>,
     /// Figure of the joints.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub joints: Option<PathBuf>,
     /// The interactive page.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "json_path::option")]
     pub report: Option<PathBuf>,
     /// All figures, in the order a reader wants them.
+    #[serde(serialize_with = "json_path::list")]
     pub figures: Vec<PathBuf>,
 }
 
@@ -178,7 +184,19 @@ impl OutputFolder {
         tempfile::NamedTempFile::new_in(folder).map_err(|error| refuse(plain(&error)))?;
         match all().find(|name| folder.join(name).is_dir()) {
             Some(name) => Err(refuse(format!("{} is a directory", name.display()))),
-            None => Ok(Self { folder: folder.to_owned() }),
+            None => Ok(Self { folder: folder.to_owned(), _lock: None }),
+        }
+    }
+
+    /// [`open`](Self::open), and no other run may do so until this is dropped: the files of two plans never mix.
+    pub fn open_alone(folder: &Path) -> Result<Self, Failure> {
+        let opened = Self::open(folder)?;
+        let refuse = |problem: String| Failure::OutputFolder { folder: folder.to_owned(), problem };
+        // Where folders cannot be opened there are no locks on them: then it is up to the user.
+        let Ok(lock) = File::open(folder) else { return Ok(opened) };
+        match lock.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(refuse("another run is writing there".to_owned())),
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self { _lock: Some(lock), ..opened }),
         }
     }
 

@@ -176,7 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
     optimizer::load()?;
     let folder = match &arguments.out {
-        Some(out) => Some(OutputFolder::open(out)?),
+        Some(out) => Some(OutputFolder::open_alone(out)?),
         None => None,
     };
     let progress = Progress::start();

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::output_folder::{OutputFolder, REPORT_FILE};
-use crate::{output, plan_folder};
+use crate::{json_path, output, plan_folder};
 
 /// Check the plan in a folder again and write its interactive page, report.html.
 #[derive(Args)]
@@ -25,6 +25,7 @@ pub struct Arguments {
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Printed<'a> {
+    #[serde(serialize_with = "json_path::path")]
     report: &'a Path,
 }
 

@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let writer = arguments.formats.writer()?;
     optimizer::load()?;
-    let folder = OutputFolder::open(&arguments.out)?;
+    let folder = OutputFolder::open_alone(&arguments.out)?;
 
     let progress = Progress::start();
     let mut on_iteration = |record: &IterationRecord| {

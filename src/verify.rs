@@ -9,7 +9,7 @@ use righting_verifier::Verified;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::{output, plan_folder};
+use crate::{json_path, output, plan_folder};
 
 /// Check the plan in a folder again, from its files alone.
 #[derive(Args)]
@@ -26,6 +26,7 @@ pub struct Arguments {
 #[derive(Serialize)]
 struct Printed<'a> {
     scenario: &'a str,
+    #[serde(serialize_with = "json_path::path")]
     trajectory: &'a Path,
     verification: &'a Verification,
 }

@@ -15,16 +15,21 @@ mod envelope;
 mod explain;
 mod export;
 mod figures;
+#[cfg(target_os = "linux")]
+mod folder_faults;
 mod full_disk;
 mod import;
 #[cfg(unix)]
 mod interrupted;
 mod kinds;
 mod library;
+mod long_life;
 mod machine;
 mod manpages;
 #[cfg(unix)]
 mod page;
+#[cfg(target_os = "linux")]
+mod paths;
 mod power;
 mod program;
 mod reach;
@@ -32,8 +37,11 @@ mod scenarios;
 mod solve;
 mod standard_input;
 mod streams;
+mod supply;
 mod sweep;
 mod sweep_faults;
+mod unsafe_blocks;
 mod usage;
 mod verify;
 mod warm_start;
+mod witnesses;

@@ -95,6 +95,37 @@ fn an_undefined_derivative_is_a_status() {
     }
 }
 
+/// Hock and Schittkowski's 71 takes fewer calls of each function: the last of these meddle with nothing.
+#[test]
+fn mischief_at_any_call_of_any_function_is_a_status_at_a_finite_point() {
+    let methods = [
+        Method::Objective,
+        Method::Gradient,
+        Method::Constraints,
+        Method::Jacobian,
+        Method::Hessian,
+    ];
+    let mut solved = 0;
+    for method in methods {
+        for call in 0..20 {
+            for mischief in [Mischief::Refuse, Mischief::Nan, Mischief::Infinite] {
+                let solution = solve_meddled(method, call, mischief);
+                let what = format!("{method:?} {call} {mischief:?}: {:?}", solution.status);
+                assert!(solution.x.iter().all(|x| x.is_finite()), "{what}");
+                match solution.status {
+                    Status::Solved | Status::Acceptable => {
+                        solved += 1;
+                        assert_close(&solution.x, Hs071::SOLUTION, 1e-6);
+                    }
+                    Status::InvalidNumber | Status::RestorationFailed => {}
+                    _ => panic!("{what}"),
+                }
+            }
+        }
+    }
+    assert!(solved > 100, "{solved}");
+}
+
 #[test]
 fn functions_that_are_nowhere_defined_leave_nan() {
     let mut problem = Meddling::new(Dense(Hs071), |_, _, _: &[f64]| Mischief::Refuse);

@@ -7,6 +7,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord};
 use righting_scenario::error::{Error, Mismatch};
 use righting_scenario::file_io;
+use righting_scenario::json::shown_text;
 
 use crate::trajectory::{ControlInterval, Node, Trajectory};
 
@@ -139,7 +140,11 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
         return Err(wrong(1, &format_args!("{} columns", head.len()), &expected));
     }
     if let Some((found, name)) = head.iter().zip(&names).find(|(found, name)| found != name) {
-        return Err(wrong(1, &format_args!("column `{found}`"), &format_args!("`{name}`")));
+        return Err(wrong(
+            1,
+            &format_args!("column `{}`", shown_text(found)),
+            &format_args!("`{name}`"),
+        ));
     }
     if body.len() < 2 {
         return Err(wrong(1, &format_args!("{} rows", body.len()), &"at least 2"));
@@ -237,7 +242,10 @@ impl Row<'_> {
             file: self.file.to_owned(),
             line: self.line,
             column: self.names[self.next].clone(),
-            mismatch: Mismatch::new(format_args!("`{}`", &self.record[self.next]), expected),
+            mismatch: Mismatch::new(
+                format_args!("`{}`", shown_text(&self.record[self.next])),
+                expected,
+            ),
         }
     }
 }

@@ -164,6 +164,21 @@ fn damaged_tables_are_refused_with_the_place() {
     assert!(refusal(&whole_last).starts_with("line 3, column u1_rad_s2"));
 }
 
+/// Found by fuzzing.
+#[test]
+fn what_a_cell_holds_does_not_spoil_the_message() {
+    let mut text = Vec::new();
+    awkward(1, 2, false, 0).print_csv(&mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    for hostile in ["1\u{9b}2J", &"9".repeat(10_000)] {
+        let message = refusal(&text.replacen("-0,", &format!("{hostile}x,"), 1));
+        assert!(message.contains("line 2, column rx_m"), "{message}");
+        assert!(!message.contains(char::is_control) && message.len() < 300, "{message:?}");
+    }
+    let message = refusal(&text.replacen("t_s", &"t".repeat(10_000), 1));
+    assert!(message.len() < 300, "{message}");
+}
+
 #[test]
 fn files_that_cannot_be_opened_or_written_are_named() {
     let folder = tempfile::tempdir().unwrap();

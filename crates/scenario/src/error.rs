@@ -1,11 +1,12 @@
 //! What can be wrong with a user's files, said at one glance.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
 use righting_import::ImportError;
 
 use crate::file_kind::FileKind;
+use crate::json::on_one_line;
 
 /// Any failure of this crate that is the input's or the file system's fault.
 ///
@@ -15,7 +16,7 @@ use crate::file_kind::FileKind;
 #[non_exhaustive]
 pub enum Error {
     /// A file could not be opened or read.
-    #[error("{}: cannot be read: {}", file.display(), plain(source))]
+    #[error("{}: cannot be read: {}", named(file), plain(source))]
     Read {
         /// The file.
         file: PathBuf,
@@ -23,7 +24,7 @@ pub enum Error {
         source: io::Error,
     },
     /// A directory stands where a file is needed.
-    #[error("{}: {}", file.display(), Mismatch::new("a directory", expected))]
+    #[error("{}: {}", named(file), Mismatch::new("a directory", expected))]
     Directory {
         /// The directory.
         file: PathBuf,
@@ -33,7 +34,7 @@ pub enum Error {
     /// A file is larger than anything this program reads.
     #[error(
         "{}: {}",
-        file.display(),
+        named(file),
         Mismatch::new(format_args!("{bytes} bytes"), format_args!("at most {limit_bytes}"))
     )]
     TooLarge {
@@ -47,7 +48,7 @@ pub enum Error {
     /// The text is not JSON.
     #[error(
         "{}: {path}{}line {line}, column {column}: not JSON: {reason}",
-        file.display(),
+        named(file),
         if path.is_empty() { "" } else { ": " }
     )]
     NotJson {
@@ -63,7 +64,7 @@ pub enum Error {
         reason: String,
     },
     /// A JSON file is of another kind than the one expected.
-    #[error("{}: {}", file.display(), Mismatch::new(found, expected))]
+    #[error("{}: {}", named(file), Mismatch::new(found, expected))]
     Kind {
         /// The file.
         file: PathBuf,
@@ -73,7 +74,7 @@ pub enum Error {
         expected: FileKind,
     },
     /// A field of a JSON file is wrong.
-    #[error("{}: {field}", file.display())]
+    #[error("{}: {field}", named(file))]
     Field {
         /// The file.
         file: PathBuf,
@@ -81,7 +82,7 @@ pub enum Error {
         field: Box<FieldError>,
     },
     /// A robot's file is wrong.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}", named(file))]
     Robot {
         /// The file.
         file: PathBuf,
@@ -89,7 +90,7 @@ pub enum Error {
         source: ImportError,
     },
     /// A cell of a table is wrong.
-    #[error("{}: line {line}, column {column}: {mismatch}", file.display())]
+    #[error("{}: line {line}, column {column}: {mismatch}", named(file))]
     Cell {
         /// The file.
         file: PathBuf,
@@ -101,7 +102,7 @@ pub enum Error {
         mismatch: Mismatch,
     },
     /// A table has the wrong header or the wrong number of cells or rows.
-    #[error("{}: line {line}: {problem}", file.display())]
+    #[error("{}: line {line}: {problem}", named(file))]
     Table {
         /// The file.
         file: PathBuf,
@@ -111,7 +112,7 @@ pub enum Error {
         problem: String,
     },
     /// A result could not be written.
-    #[error("{}: cannot be written: {}", file.display(), plain(source))]
+    #[error("{}: cannot be written: {}", named(file), plain(source))]
     Write {
         /// The file or folder.
         file: PathBuf,
@@ -119,7 +120,7 @@ pub enum Error {
         source: io::Error,
     },
     /// An earlier result could not be removed.
-    #[error("{}: cannot be replaced: {}", file.display(), plain(source))]
+    #[error("{}: cannot be replaced: {}", named(file), plain(source))]
     Remove {
         /// The file.
         file: PathBuf,
@@ -214,6 +215,12 @@ impl fmt::Display for FieldError {
 }
 
 impl std::error::Error for FieldError {}
+
+/// A file's name on one line: whoever writes control characters into a name gets them escaped.
+fn named(file: &Path) -> String {
+    const LONGEST: usize = 500;
+    on_one_line(&file.display().to_string(), LONGEST)
+}
 
 /// An I/O error without the operating system's error number.
 fn plain(error: &io::Error) -> String {

@@ -76,21 +76,42 @@ impl Document {
     }
 }
 
-/// A key as part of a path that stays on one line.
+/// A key as part of a path.
 fn shown_key(key: &str) -> String {
-    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
-    key.chars().map(escaped).collect()
+    shown_text(key)
+}
+
+/// A path of many keys.
+fn shown_path(path: &str) -> String {
+    const LONGEST: usize = 400;
+    on_one_line(path, LONGEST)
 }
 
 /// A value as JSON, shortened to fit in a line.
 pub fn shown(value: &Value) -> String {
+    shown_text(&value.to_string())
+}
+
+/// What a file says, shortened to fit in a line.
+pub fn shown_text(text: &str) -> String {
     const LONGEST: usize = 60;
-    let text = value.to_string();
-    if text.chars().count() <= LONGEST {
-        text
-    } else {
-        text.chars().take(LONGEST).chain(['…']).collect()
+    on_one_line(text, LONGEST)
+}
+
+/// A text of so many characters at most; those that would move a terminal's cursor are escaped.
+pub(crate) fn on_one_line(text: &str, longest: usize) -> String {
+    let mut shown = String::new();
+    for (place, c) in text.chars().enumerate() {
+        if place == longest {
+            shown.push('…');
+            break;
+        }
+        match c.is_control() {
+            true => shown.extend(c.escape_default()),
+            false => shown.push(c),
+        }
     }
+    shown
 }
 
 /// The candidate nearest to `name`, if any is near enough to be what was meant.

@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+/// No message is longer, bytes.
+const LONGEST_LINE: u64 = 1 << 20;
 /// How often a wait looks whether it shall go on.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// How long the last words of a dead worker are waited for.
@@ -114,7 +116,14 @@ fn lines_of(stream: impl Read + Send + 'static) -> Receiver<String> {
     thread::spawn(move || {
         let mut stream = BufReader::new(stream);
         let mut bytes = Vec::new();
-        while matches!(stream.read_until(b'\n', &mut bytes), Ok(1..)) {
+        let mut next =
+            |bytes: &mut Vec<u8>| stream.by_ref().take(LONGEST_LINE).read_until(b'\n', bytes);
+        while matches!(next(&mut bytes), Ok(1..)) {
+            // A process that never ends its line may not fill the memory.
+            if bytes.len() as u64 == LONGEST_LINE {
+                bytes.clear();
+                continue;
+            }
             let line = String::from_utf8_lossy(&bytes).trim().to_owned();
             if sender.send(line).is_err() {
                 break;

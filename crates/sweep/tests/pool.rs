@@ -20,6 +20,8 @@ while read -r task; do
     *crash_once*) if mkdir "$MARK" 2>/dev/null; then echo 'note: n' >&2; echo 'out of luck' >&2; exit 7; fi;;
     *crash*) kill -9 $$;;
     *hang*) exec sleep 1000;;
+    *lie*) id=00000000000000ff;;
+    *endless*) exec tr '\0' x </dev/zero;;
     *babble*) echo 'a library says hello';;
   esac
   echo '{"case_id":"'$id'","outcome":{"status":"flown","verified":true,"attitude_error":0.5,"final_rate_deg_s":0.0,"joint_rate_deg_s":0.0,"objective":null,"iterations":0},"solve_s":0.0}'
@@ -100,6 +102,32 @@ fn a_worker_that_hangs_is_replaced_and_its_case_tried_once_more() {
         assert_eq!(outcome.status, CaseStatus::Trouble(Trouble::Hung));
         assert_eq!(outcome.reason.as_deref(), Some("no answer after 0.1 s"));
         assert_eq!(run.attempts, 2);
+    }
+}
+
+#[test]
+fn an_answer_to_another_case_is_none() {
+    let Ran { records, result } = run(WORKER, 2, &["fly", "lie", "fly"], PATIENCE, &never);
+    result.unwrap();
+    assert_eq!(records.len(), 3);
+    let outcome = &records[&1].outcome;
+    assert_eq!(outcome.status, CaseStatus::Trouble(Trouble::Crashed));
+    assert_eq!(outcome.reason.as_deref(), Some("the worker answered another case"));
+    assert!(records[&0].outcome.succeeded() && records[&2].outcome.succeeded());
+}
+
+#[test]
+fn a_line_without_an_end_is_no_answer_and_fills_no_memory() {
+    let patience = Duration::from_millis(300);
+    let Ran { records, result } = run(WORKER, 1, &["endless"], patience, &never);
+    result.unwrap();
+    assert_eq!(records[&0].outcome.status, CaseStatus::Trouble(Trouble::Hung));
+    #[cfg(target_os = "linux")]
+    {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap();
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+        let kib: u64 = peak.trim().trim_end_matches(" kB").parse().unwrap();
+        assert!(kib < 200 << 10, "{kib} KiB");
     }
 }
 

@@ -7,7 +7,7 @@ use serde::de::{
 };
 use serde_json::{Map, Number, Value};
 
-use super::shown_key;
+use super::shown_path;
 
 /// What the parser is told when a key appears twice, to know its own complaint again.
 const DUPLICATE: &str = "duplicate field";
@@ -33,7 +33,7 @@ pub(super) fn parse(text: &str) -> Result<Value, SyntaxError> {
         // The last segment is unknown where the parser has left a value but met no next key.
         let path = error.path().to_string();
         let path = path.trim_end_matches('?').trim_end_matches('.');
-        syntax_error(if path.is_empty() { String::new() } else { shown_key(path) }, error.inner())
+        syntax_error(if path.is_empty() { String::new() } else { shown_path(path) }, error.inner())
     })?;
     source.end().map_err(|error| syntax_error(String::new(), &error))?;
     Ok(root)
