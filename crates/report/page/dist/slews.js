@@ -1,4 +1,4 @@
-/*! Generated from sources 360c277cfec6934eb9283b2929d50dc4cf2dfef64b75143e6303de0aebddd59b */
+/*! Generated from sources 422112309608a0a981b3f79ff6881efcac9109988338f1a0aa9defa931d86dd7 */
 /*!
 three
 
