@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import mujoco
@@ -40,8 +41,10 @@ def columns(file: Path) -> dict[str, np.ndarray]:
     with file.open(encoding="utf-8") as text:
         rows = list(csv.DictReader(text))
     numbers = {key: np.array([float(row[key]) for row in rows if row[key]]) for key in rows[0]}
-    joints = sum(key.startswith("tau") for key in numbers)
-    of_joints = lambda prefix, unit: np.transpose([numbers[f"{prefix}{i + 1}_{unit}"] for i in range(joints)])
+    # Joints that slide have metres and newtons in the names of their columns.
+    joints = sum(bool(re.fullmatch(r"q\d+_(rad|m)", key)) for key in numbers)
+    column = lambda pattern: next(numbers[key] for key in numbers if re.fullmatch(pattern, key))
+    of_joints = lambda prefix, unit: np.transpose([column(f"{prefix}{i + 1}_{unit}") for i in range(joints)])
     several = lambda *keys: np.transpose([numbers[key] for key in keys])
     return {
         "t_s": numbers["t_s"],
@@ -49,10 +52,10 @@ def columns(file: Path) -> dict[str, np.ndarray]:
         "q_wxyz": several("qw", "qx", "qy", "qz"),
         "v_m_s": several("vx_m_s", "vy_m_s", "vz_m_s"),
         "w_rad_s": several("wx_rad_s", "wy_rad_s", "wz_rad_s"),
-        "q_rad": of_joints("q", "rad"),
-        "dq_rad_s": of_joints("dq", "rad_s"),
-        "u_rad_s2": of_joints("u", "rad_s2"),
-        "tau_n_m": of_joints("tau", "n_m"),
+        "q_rad": of_joints("q", "(rad|m)"),
+        "dq_rad_s": of_joints("dq", "(rad|m)_s"),
+        "u_rad_s2": of_joints("u", "(rad|m)_s2"),
+        "tau_n_m": of_joints("(tau|f)", "n(_m)?"),
         "power_w": numbers["power_w"],
     }
 

@@ -67,7 +67,7 @@ def public_robots() -> list[Robot]:
 
 
 def random_robot(folder: Path, number: int) -> Robot:
-    """A tree of 2 to 12 links with revolute, continuous and fixed joints, any of which is the base."""
+    """A tree of 3 to 12 links with revolute, continuous, prismatic and fixed joints, any of which is the base."""
     draw = random.Random(number)
     numbers = lambda count, size: " ".join(repr(size * draw.uniform(-1, 1)) for _ in range(count))
     count = draw.randint(3, 12)
@@ -82,7 +82,7 @@ def random_robot(folder: Path, number: int) -> Robot:
             f'iyy="{yy!r}" iyz="{yz!r}" izz="{zz!r}"/></inertial></link>'
         )
     for child in range(1, count):
-        kind = "revolute" if child == 1 else draw.choice(["revolute", "revolute", "continuous", "fixed"])
+        kind = "revolute" if child == 1 else draw.choice(["revolute", "revolute", "continuous", "prismatic", "prismatic", "fixed"])
         axis = draw.choice(["1 0 0", "0 1 0", "0 0 -1", numbers(3, 1)])
         lines.append(
             f'<joint name="j{child}" type="{kind}"><parent link="l{draw.randrange(child)}"/><child link="l{child}"/>'
@@ -129,7 +129,8 @@ def compared(robot: Robot, options) -> tuple[int, dict[str, float]]:
     """The number of joints, and the largest deviations by what is compared."""
     system = Path.cwd() / f"{robot.name.replace(' ', '_')}.json"
     command = [options.righting, "import", robot.file, "--base", robot.base, "--out", system]
-    command += ["--acceleration-max-deg-s2", "60", "--rate-max-deg-s", "60", *robot.options]
+    command += ["--acceleration-max-deg-s2", "60", "--rate-max-deg-s", "60", "--acceleration-max-m-s2", "1"]
+    command += ["--speed-max-m-s", "1", *robot.options]
     for joint, at in robot.locked.items():
         command += ["--lock", f"{joint}={at}"]
     run(*command)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Fly plans in MuJoCo and Basilisk by their exported files alone, and check every exported file.
 
-Plans the eight maneuvers of the paper's Table I and its 75 degree slew, exports each in every format, runs the two
-exported scripts, and has other programs read the other files (check_exports.py). Writes docs/replay.md. Exit code 1
+Plans the eight maneuvers of the paper's Table I, its 75 degree slew, slews by two arms, by an arm with a joint that
+slides, and by an arm that is imported from a URDF file, exports each in every format, runs the exported scripts, and has other programs read the other files (check_exports.py). Writes docs/replay.md. Exit code 1
 when a flight or a file is farther off than it may be.
 """
 
@@ -22,7 +22,25 @@ SCENARIOS = [
     *(f"slew_{arm}" for arm in ("2dof", "4dof", "canadarm2_table", "canadarm2")),
     *(f"detumble_{arm}" for arm in ("2dof", "4dof", "canadarm2_table", "canadarm2")),
     "slew75_4dof",
+    "real/slew_two_arms",
+    "real/slew_stanford",
+    "slew_xarm7",
 ]
+# Basilisk's arms have no joints that slide.
+SLIDING = ["real/slew_stanford"]
+# A slew whose system is a URDF file, that of a seven-joint arm in the package example-robot-data.
+URDF = "share/example-robot-data/robots/xarm_description/urdf/xarm7.urdf"
+OF_URDF = {
+    "name": "slew_xarm7",
+    "system_options": {
+        "on": {"mass_kg": 100, "cube_side_m": 0.6},
+        "mount_position_m": [0, 0, 0.52],
+        "acceleration_max_deg_s2": 20,
+    },
+    "initial": {"joint_angles_deg": [0, -30, 0, 60, 0, 60, 0]},
+    "maneuver": {"type": "slew", "axis": [0.3, 0.5, 0.8], "angle_deg": 15},
+    "horizon": {"duration_s": 60, "steps": 300},
+}
 FORMATS = ["urdf", "mjcf", "joint-trajectory", "ck", "stk", "aem", "npz", "mat", "basilisk", "mujoco"]
 FLIGHTS = ["mujoco", "basilisk"]
 STATES = 20
@@ -57,14 +75,17 @@ def main() -> int:
     options.out = Path.cwd()
     flights, files, wrong = [], {}, []
     for name in options.names or SCENARIOS:
-        folder = options.out / name
-        scenario = ROOT / "scenarios" / f"{name}.json"
+        folder = options.out / Path(name).name
+        scenario = of_urdf(options.out) if name == OF_URDF["name"] else ROOT / "scenarios" / f"{name}.json"
         run(options.righting, "solve", scenario, "--out", folder, "--figures", "none", "--no-report")
+        flown = [simulator for simulator in FLIGHTS if simulator == "mujoco" or name not in SLIDING]
         for kind in FORMATS:
+            if kind in FLIGHTS and kind not in flown:
+                continue
             run(options.righting, "export", folder, "--format", kind)
         message = folder / "joint_trajectory.json"
         run(options.righting, "export", folder, "--format", "joint-trajectory", "--out", message)
-        for simulator in FLIGHTS:
+        for simulator in flown:
             script = folder / f"fly_{simulator}.py"
             track = ["--track"] if name in UNSTABLE else []
             flight = json.loads(run(sys.executable, script, "--json", "--step", options.step, *track))
@@ -89,6 +110,14 @@ def main() -> int:
     return 1 if wrong else 0
 
 
+def of_urdf(folder: Path) -> Path:
+    """The scenario whose system is a URDF file."""
+    robot = next(path for path in (Path(entry) / "cmeel.prefix" / URDF for entry in sys.path) if path.is_file())
+    file = folder / f"{OF_URDF['name']}.json"
+    file.write_text(json.dumps(OF_URDF | {"system": str(robot)}), encoding="utf-8")
+    return file
+
+
 def run(*command: object) -> str:
     """What the command prints; its complaints where it fails."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
@@ -103,24 +132,26 @@ def page(flights: list, files: dict[str, float]) -> str:
         "# Plans flown by other programs",
         "",
         "This page is written by `make replay` (`scripts/replay.py`). It plans the eight maneuvers of the paper's Table I",
-        "and its 75° slew, exports them, and flies them from the exported files alone: the scripts of",
+        "and its 75° slew, a slew by two arms, one by the Stanford arm, whose third joint slides (Basilisk has no such joints",
+        "in an arm), and one by the seven-joint arm xArm 7, whose URDF file of the package example-robot-data is the",
+        "scenario's system. It exports them and flies them from the exported files alone: the scripts of",
         "`righting export --format mujoco` and `--format basilisk`. The simulated joints get the plan's torques and",
         "nothing else. Nothing tracks the plan, so what a simulator's dynamics do otherwise than the plan's stays visible.",
         f"The simulators are {simulators}.",
         "",
         "*Attitude* is the angle between the base at the end of the flight and at the end of the plan; it may be at most",
-        f"{ATTITUDE_RAD:.0e} rad. *Joints* is the largest difference of a joint angle there. *Torque* is the largest",
+        f"{ATTITUDE_RAD:.0e} rad. *Joints* is the largest difference of a joint coordinate there. *Torque* is the largest",
         "difference between a joint's peak torque in the plan and the one that the simulator's equations need for the",
         f"plan's joint accelerations; it may be at most {TORQUE_PERCENT} %.",
         "",
-        "| plan | simulator | integrator, step | attitude, rad | joints, rad | torque, % |",
+        "| plan | simulator | integrator, step | attitude, rad | joints, rad or m | torque, % |",
         "| --- | --- | --- | --- | --- | --- |",
     ]
     for name, flight in flights:
         simulator = flight["simulator"].split()[0]
         mark = " (tracked)" if name in UNSTABLE else ""
         lines.append(
-            f"| `{name}`{mark} | {simulator} | {flight['integrator']}, {1000 * flight['step_s']:g} ms "
+            f"| `{Path(name).name}`{mark} | {simulator} | {flight['integrator']}, {1000 * flight['step_s']:g} ms "
             f"| {flight['attitude_error_rad']:.1e} | {flight['joint_error_rad']:.1e} "
             f"| {flight['peak_torque_difference_percent']:.1e} |"
         )

@@ -44,6 +44,12 @@ pub struct Arguments {
     /// Largest rate of joints that turn and have no velocity limit, deg/s.
     #[arg(long, value_name = "W")]
     rate_max_deg_s: Option<f64>,
+    /// Largest acceleration of joints that slide, m/s^2; URDF has none.
+    #[arg(long, value_name = "A")]
+    acceleration_max_m_s2: Option<f64>,
+    /// Largest speed of joints that slide and have no velocity limit, m/s.
+    #[arg(long, value_name = "V")]
+    speed_max_m_s: Option<f64>,
     /// Take links that have a mass and no inertia as point masses.
     #[arg(long)]
     point_masses: bool,
@@ -97,6 +103,8 @@ impl Arguments {
             dropped: self.drop.clone(),
             acceleration_max_deg_s2: self.acceleration_max_deg_s2,
             rate_max_deg_s: self.rate_max_deg_s,
+            acceleration_max_m_s2: self.acceleration_max_m_s2,
+            speed_max_m_s: self.speed_max_m_s,
             point_masses: self.point_masses,
             project_inertias: self.project_inertias,
         })

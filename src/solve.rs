@@ -162,7 +162,8 @@ pub fn write(
     folder.remove_earlier_plan()?;
     let is_plan = solution.has_plan();
     if is_plan {
-        trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE))?;
+        let kinds = scenario.system().model.joint_kinds();
+        trajectory.write_csv(&kinds, &folder.path().join(TRAJECTORY_FILE))?;
     }
     solution.timing_s.total = started.elapsed().as_secs_f64();
     solution.write_json(&folder.path().join(SOLUTION_FILE))?;

@@ -104,7 +104,8 @@ impl Plan {
         let made = std::fs::create_dir_all(&folder)
             .map_err(|source| righting_scenario::Error::Write { file: folder.clone(), source });
         made.map_err(&of_file)?;
-        self.trajectory.write_csv(&folder.join(TRAJECTORY_FILE)).map_err(&of_file)?;
+        let kinds = self.scenario.system().model.joint_kinds();
+        self.trajectory.write_csv(&kinds, &folder.join(TRAJECTORY_FILE)).map_err(&of_file)?;
         self.solution.write_json(&folder.join(SOLUTION_FILE)).map_err(&of_file)?;
         let page = self.page();
         righting_scenario::file_io::replace(&folder.join("report.html"), |writer| {

@@ -87,6 +87,9 @@ pub struct Asked {
     /// Slew: the angle, deg.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
+    /// Slew: how many attitudes it reaches on its way; absent without any.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub waypoints: usize,
     /// Slew by an arm that turns the base about one axis only: the angle between that axis and the one asked,
     /// deg.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,6 +110,11 @@ pub struct Asked {
     /// Detumble: no motion that stops the arm leaves less, deg/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound_deg_s: Option<f64>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// The JSON Schema (draft 2020-12) of explain.json.
@@ -183,6 +191,7 @@ fn asked(scenario: &Scenario, abilities: &Abilities) -> Asked {
         possible_axes: reason.as_ref().and_then(axes),
         axis: slew.map(|slew| slew.axis.into()),
         angle_deg: slew.map(|slew| slew.angle_rad.to_degrees()),
+        waypoints: scenario.waypoints().len(),
         off_axis_deg: slew
             .and_then(|slew| abilities.axes.off_axis_rad(&slew.axis))
             .map(f64::to_degrees),

@@ -120,9 +120,18 @@ fn about_loops(loops: &Loops) -> Vec<(&'static str, String)> {
 
 fn phrase(asked: &Asked) -> String {
     let duration = short(asked.duration_s);
+    let way = match asked.waypoints {
+        0 => String::new(),
+        1 => " by way of a waypoint".to_owned(),
+        waypoints => format!(" by way of {waypoints} waypoints"),
+    };
     match (asked.axis, asked.angle_deg) {
+        (Some(_), Some(0.0)) if asked.waypoints > 0 => {
+            format!("slew back to the start{way} in {duration} s")
+        }
         (Some(axis), Some(angle_deg)) => {
-            format!("slew of {}\u{b0} about {} in {duration} s", short(angle_deg), vector(&axis))
+            let (angle, axis) = (short(angle_deg), vector(&axis));
+            format!("slew of {angle}\u{b0} about {axis}{way} in {duration} s")
         }
         _ => format!("detumble in {duration} s"),
     }

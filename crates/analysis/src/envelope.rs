@@ -17,6 +17,7 @@ pub use directions::fibonacci;
 pub use sizing::Sizing;
 
 use nalgebra::Vector3;
+use righting_scenario::file::{JointKind, of_kind};
 use righting_scenario::system_description::SystemDescription;
 use righting_scenario::wheels::WheelArray;
 use serde::Serialize;
@@ -54,8 +55,11 @@ pub struct Envelope {
     pub true_max: f64,
     /// Where it points: a unit vector, body axes.
     pub true_max_axis: [f64; 3],
-    /// Joint angles of that motion, deg.
+    /// Joint angles of that motion, those of the joints that turn, deg.
     pub true_max_joint_angles_deg: Vec<f64>,
+    /// Travels of the joints that slide in that motion, m.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub true_max_joint_travels_m: Vec<f64>,
     /// Largest component along x, y and z in magnitude.
     pub per_axis_max: [f64; 3],
     /// Smallest extent over all directions.
@@ -120,6 +124,7 @@ fn envelope(
     let farthest = extent::farthest(arm, of, &reaches);
     let point = farthest.as_ref().map_or_else(Vector3::zeros, |reach| reach.motion.vector);
     let angles = farthest.map_or_else(Vec::new, |reach| reach.motion.angles);
+    let kinds = system.model.joint_kinds();
     let axis = |i: usize| reaches[i].extent().max(reaches[i + 3].extent());
     let sampled_hull = convex_hull(samples);
     let hull = extent::inner_hull(&reaches);
@@ -134,7 +139,11 @@ fn envelope(
         sampled_max: largest(samples),
         true_max: point.norm(),
         true_max_axis: point.try_normalize(f64::MIN_POSITIVE).unwrap_or_default().into(),
-        true_max_joint_angles_deg: angles.iter().map(|angle| angle.to_degrees()).collect(),
+        true_max_joint_angles_deg: of_kind(&kinds, JointKind::Revolute, &angles)
+            .into_iter()
+            .map(f64::to_degrees)
+            .collect(),
+        true_max_joint_travels_m: of_kind(&kinds, JointKind::Prismatic, &angles),
         per_axis_max: [0, 1, 2].map(|i| clean(axis(i))),
         true_min: clean(reaches.iter().map(extent::Reach::extent).fold(f64::INFINITY, f64::min)),
         hull_volume: sampled_hull.volume(),

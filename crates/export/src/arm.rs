@@ -1,6 +1,6 @@
 //! The arms as other programs take them: named bodies on named hinges.
 
-use righting_multibody::{HingedBody, Placement, RigidBody};
+use righting_multibody::{HingedBody, JointKind, Placement, RigidBody};
 use righting_scenario::{JointLimits, SystemDescription};
 
 /// Name of the base.
@@ -17,8 +17,9 @@ pub(crate) struct Arm {
     pub tip: Option<Placement>,
 }
 
-/// A body and the hinge that turns it about its z axis.
+/// A body and the hinge that turns it about its z axis, or slides it along that.
 pub(crate) struct Hinge {
+    pub kind: JointKind,
     /// Name of the joint.
     pub joint: String,
     /// Name of the body.
@@ -27,14 +28,14 @@ pub(crate) struct Hinge {
     pub coordinate: usize,
     /// The hinge of the body that carries it, by its place; none for the base.
     pub parent: Option<usize>,
-    /// At joint angle zero, in the frame of the body that carries it.
+    /// At joint coordinate zero, in the frame of the body that carries it.
     pub placement: Placement,
     pub body: RigidBody,
     pub limits: JointLimits,
-    /// Whether the hinge turns no inertia.
+    /// Whether the hinge moves no inertia.
     pub is_idle: bool,
-    /// The angle that it holds, if it does not turn.
-    pub held_rad: Option<f64>,
+    /// The angle or travel that it holds, if it does not move; rad or m.
+    pub held_at: Option<f64>,
 }
 
 impl Arm {
@@ -45,10 +46,11 @@ impl Arm {
         let mut ahead = carried_by(&bodies, None);
         while let Some(coordinate) = ahead.pop() {
             ahead.extend(carried_by(&bodies, Some(coordinate)));
-            let HingedBody { parent, placement, body, is_idle } = bodies[coordinate];
+            let HingedBody { kind, parent, placement, body, is_idle } = bodies[coordinate];
             let limits = system.joint_limits[coordinate];
             let place = |parent: usize| hinges.iter().position(|hinge| hinge.coordinate == parent);
             hinges.push(Hinge {
+                kind,
                 joint: joint_name(system, coordinate),
                 link: link_name(system, coordinate),
                 coordinate,
@@ -57,7 +59,7 @@ impl Arm {
                 body,
                 limits,
                 is_idle,
-                held_rad: limits.is_locked().then_some(limits.angle_min_rad),
+                held_at: limits.is_locked().then_some(limits.angle_min_rad),
             });
         }
         let frames = system.model.carried_frames();
@@ -87,9 +89,10 @@ fn carried_by(bodies: &[HingedBody], parent: Option<usize>) -> Vec<usize> {
 impl Hinge {
     /// Where the body is, its joint at zero or held.
     pub fn placed(&self) -> Placement {
-        match self.held_rad {
-            Some(angle_rad) => self.placement.turned_about_z(angle_rad),
-            None => self.placement,
+        match (self.held_at, self.kind) {
+            (Some(angle_rad), JointKind::Revolute) => self.placement.turned_about_z(angle_rad),
+            (Some(travel_m), JointKind::Prismatic) => self.placement.moved_along_z(travel_m),
+            (None, _) => self.placement,
         }
     }
 }
@@ -108,7 +111,8 @@ impl Hinge {
         let is_on_axis = about_axis <= ROUNDING * about_all
             && position_m.xy().norm() <= ROUNDING * position_m.norm()
             && (1.0 - rotation[(2, 2)].abs()) <= ROUNDING;
-        (is_on_axis && next.held_rad.is_none() && !next.is_idle)
+        let both_turn = [self.kind, next.kind] == [JointKind::Revolute; 2];
+        (is_on_axis && both_turn && next.held_at.is_none() && !next.is_idle)
             .then_some(rotation[(2, 2)].signum())
     }
 }

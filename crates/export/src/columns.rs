@@ -22,6 +22,8 @@ pub(crate) struct Columns {
 /// | `q_rad`, `dq_rad_s` | N + 1, j | joint angles and rates |
 /// | `u_rad_s2`, `tau_n_m` | N, j | joint accelerations and torques at the first node of an interval |
 /// | `j_rad_s3` | N, j | joint jerks of an interval, where the plan has them |
+///
+/// The columns of a joint that slides are in m instead of rad, and in N instead of N m.
 pub(crate) fn groups(trajectory: &Trajectory) -> Vec<Columns> {
     let nodes = trajectory.nodes();
     let intervals = trajectory.intervals();

@@ -39,10 +39,13 @@ pub enum ExportError {
         /// Where it ends.
         time_s: f64,
     },
-    /// The format takes one serial arm only.
+    /// The format takes serial arms only.
     #[error(
         "system: {}",
-        Mismatch::new("joints that branch", "one serial arm: this format has no branches")
+        Mismatch::new(
+            "an arm that branches",
+            "serial arms on the base: this format has no branches"
+        )
     )]
     Branches,
     /// The format knows neither wheels nor what acts from outside.
@@ -54,6 +57,18 @@ pub enum ExportError {
         )
     )]
     Surroundings,
+    /// The format takes joints that turn only.
+    #[error(
+        "system: {}",
+        Mismatch::new(
+            format_args!("joint {joint}, which slides"),
+            "joints that turn: this format has no others in an arm"
+        )
+    )]
+    Slides {
+        /// The name of the joint.
+        joint: String,
+    },
     /// An archive could not be made.
     #[error("cannot make the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -26,11 +26,11 @@ use step_torques::{COEFFICIENTS, StepTorques};
 struct Flight {
     arm: Arm,
     joints: Vec<FlownJoint>,
-    /// Of every step, a row of each power of the place in the step, which goes from −1 to 1, N m.
+    /// Of every step, a row of each power of the place in the step, which goes from −1 to 1, N m or N.
     torque_coefficients: Vec<f64>,
 }
 
-/// A joint that turns in a flight.
+/// A joint that moves in a flight.
 struct FlownJoint {
     /// Its hinge, by its place.
     hinge: usize,
@@ -52,15 +52,15 @@ impl Flight {
             let hinge = &mut arm.hinges[index];
             let start_rad = start_rad[hinge.coordinate];
             if hinge.is_idle {
-                hinge.held_rad.get_or_insert(start_rad);
+                hinge.held_at.get_or_insert(start_rad);
             }
-            if hinge.held_rad.is_some() {
+            if hinge.held_at.is_some() {
                 others.clear();
                 continue;
             }
             match sense {
                 Some(sense) => {
-                    hinge.held_rad = Some(start_rad);
+                    hinge.held_at = Some(start_rad);
                     others.push((hinge.coordinate, 1.0));
                     others.iter_mut().for_each(|(_, of_other)| *of_other *= sense);
                 }
@@ -100,7 +100,7 @@ impl Flight {
         let held = |joint: &FlownJoint| -> f64 {
             let angle = |index: usize| {
                 let hinge = self.arm.hinges.iter().find(|hinge| hinge.coordinate == index);
-                hinge.and_then(|hinge| hinge.held_rad).unwrap_or_default()
+                hinge.and_then(|hinge| hinge.held_at).unwrap_or_default()
             };
             joint.others.iter().map(|(other, sense)| sense * angle(*other)).sum()
         };
@@ -136,7 +136,7 @@ mod tests {
             .arm
             .hinges
             .iter()
-            .filter(|hinge| hinge.held_rad.is_some())
+            .filter(|hinge| hinge.held_at.is_some())
             .map(|hinge| hinge.joint.as_str())
             .collect();
         assert_eq!(held.first(), Some(&"joint_1"));
@@ -146,7 +146,7 @@ mod tests {
         let planned = &trajectory.nodes()[3].joint_angles_rad;
         let flown = flight.angles(std::iter::once(planned));
         let mut angles: Vec<f64> =
-            flight.arm.hinges.iter().map(|hinge| hinge.held_rad.unwrap_or_default()).collect();
+            flight.arm.hinges.iter().map(|hinge| hinge.held_at.unwrap_or_default()).collect();
         flight.joints.iter().zip(flown).for_each(|(joint, angle)| angles[joint.index] = angle);
         let moved = (angles[0] - planned[0]).abs();
         assert!(moved > 0.01, "{moved} rad shows nothing");

@@ -11,8 +11,8 @@ use crate::arm::joint_name;
 
 const NANOSECONDS: f64 = 1e9;
 
-/// `trajectory_msgs/msg/JointTrajectory`: angles, rates, accelerations and torques of the joints that
-/// turn, one point a node; SI units and radians. Locked joints are not among them.
+/// `trajectory_msgs/msg/JointTrajectory`: coordinates, rates, accelerations and torques of the joints that
+/// move, one point a node; SI units and radians, of joints that slide m and N. Locked joints are not among them.
 ///
 /// Accelerations and torques are those with which the step begins that begins at the point, and at the last
 /// point those with which the step ends that ends there: the same where accelerations are continuous.

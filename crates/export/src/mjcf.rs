@@ -1,7 +1,7 @@
 //! The whole system as MJCF, MuJoCo's own format: the base on a free joint, no gravity.
 
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
-use righting_multibody::{Placement, RigidBody};
+use righting_multibody::{JointKind, Placement, RigidBody};
 use righting_results::{Node, Trajectory};
 use righting_scenario::{JointLimits, SystemDescription};
 
@@ -18,12 +18,13 @@ const LEAST: f64 = 1e-14;
 /// `end`.
 ///
 /// The body `base` is on a free joint; no gravity, armature, damping or friction. Body `link_i` is
-/// what `joint_i` turns, in the frame whose z axis is the joint's axis where all angles are zero; bodies
+/// what `joint_i` moves, in the frame whose z axis is the joint's axis where all coordinates are zero; bodies
 /// and joints with names of their own keep them. Joints stand depth first. A payload is part of the last
-/// body. Joint angles are the plan's. Every joint has a motor of the same
-/// name, whose control is its torque, within the joint's limit; locked joints are none, their bodies
-/// are fixed. A joint's rate and acceleration limits stand in `custom`, since MJCF has none. The site `tip` is the last
-/// frame of an arm in rows.
+/// body. Joint coordinates are the plan's. Every joint has a motor of the same
+/// name, whose control is its torque or force, within the joint's limit; locked joints are none, their bodies
+/// are fixed. Rate and acceleration limits stand in `custom`, since MJCF has none: those of the joints that turn
+/// and those of the joints that slide, in the order of the joints. The site `tip` is the last frame of an arm in
+/// rows.
 ///
 /// MuJoCo refuses bodies without mass on a joint. A massless link is therefore no body: its joint
 /// turns the next body with mass, which is the same motion. Where none or several follow, and for principal
@@ -34,28 +35,34 @@ pub fn mjcf(system: &SystemDescription, trajectory: &Trajectory) -> String {
 
 /// The model of an arm with the key frames of a trajectory.
 pub(crate) fn model(system: &SystemDescription, arm: &Arm, trajectory: &Trajectory) -> Element {
-    let turning = || arm.hinges.iter().filter(|hinge| hinge.held_rad.is_none());
+    let moving = || arm.hinges.iter().filter(|hinge| hinge.held_at.is_none());
     let joint = Element::new("joint")
         .with_number("armature", 0.0)
         .with_number("damping", 0.0)
         .with_number("frictionloss", 0.0);
     let mut custom = Element::new("custom");
     let mut actuator = Element::new("actuator");
-    for hinge in turning() {
+    for hinge in moving() {
         actuator.push(motor(hinge));
     }
-    let of_joints = |name, of: fn(&JointLimits) -> f64| {
-        Element::new("numeric")
-            .with("name", name)
-            .with_numbers("data", turning().map(|hinge| of(&hinge.limits)))
-    };
-    if turning().next().is_some() {
-        custom.push(of_joints("rate_max_rad_s", |limits| limits.rate_max_rad_s));
-        let of = |limits: &JointLimits| limits.acceleration_max_rad_s2;
-        custom.push(of_joints("acceleration_max_rad_s2", of));
-        if turning().any(|hinge| hinge.limits.jerk_max_rad_s3.is_finite()) {
-            let of = |limits: &JointLimits| limits.jerk_max_rad_s3.min(UNLIMITED);
-            custom.push(of_joints("jerk_max_rad_s3", of));
+    let names_of_kinds = [
+        (JointKind::Revolute, ["rate_max_rad_s", "acceleration_max_rad_s2", "jerk_max_rad_s3"]),
+        (JointKind::Prismatic, ["speed_max_m_s", "acceleration_max_m_s2", "jerk_max_m_s3"]),
+    ];
+    for (kind, [rate, acceleration, jerk]) in names_of_kinds {
+        let limits: Vec<&JointLimits> =
+            moving().filter(|hinge| hinge.kind == kind).map(|hinge| &hinge.limits).collect();
+        if limits.is_empty() {
+            continue;
+        }
+        let mut push = |name, of: fn(&JointLimits) -> f64| {
+            let values = limits.iter().map(|limits| of(limits));
+            custom.push(Element::new("numeric").with("name", name).with_numbers("data", values));
+        };
+        push(rate, |limits| limits.rate_max_rad_s);
+        push(acceleration, |limits| limits.acceleration_max_rad_s2);
+        if limits.iter().any(|limits| limits.jerk_max_rad_s3.is_finite()) {
+            push(jerk, |limits| limits.jerk_max_rad_s3.min(UNLIMITED));
         }
     }
     let keys = Element::new("keyframe")
@@ -63,7 +70,7 @@ pub(crate) fn model(system: &SystemDescription, arm: &Arm, trajectory: &Trajecto
         .holding(key("end", arm, trajectory.end()));
     Element::new("mujoco")
         .with("model", &system.name)
-        .noting("SI units and radians; motors take torques in N m")
+        .noting("SI units and radians; motors take torques in N m, where joints slide forces in N")
         .holding(Element::new("compiler").with("angle", "radian"))
         .holding(Element::new("option").with_numbers("gravity", [0.0; 3]).with("integrator", "RK4"))
         .holding(Element::new("default").holding(joint))
@@ -111,7 +118,7 @@ impl<'a> Between<'a> {
         for joint in &mut self.joints {
             *joint = joint.seen_from(&step);
         }
-        if hinge.held_rad.is_none() {
+        if hinge.held_at.is_none() {
             self.joints.push(Joint { hinge, axis: Vector3::z(), position_m: Vector3::zeros() });
         }
         self
@@ -169,7 +176,13 @@ impl Joint<'_> {
         let is_limited = angle_min_rad.is_finite() || angle_max_rad.is_finite();
         let joint = Element::new("joint")
             .with("name", &self.hinge.joint)
-            .with("type", "hinge")
+            .with(
+                "type",
+                match self.hinge.kind {
+                    JointKind::Revolute => "hinge",
+                    JointKind::Prismatic => "slide",
+                },
+            )
             .with_numbers("pos", self.position_m.iter().copied())
             .with_numbers("axis", self.axis.iter().copied())
             .with("limited", if is_limited { "true" } else { "false" });
@@ -229,7 +242,7 @@ fn physical(moments: Vector3<f64>, least: f64) -> Vector3<f64> {
 
 fn key(name: &str, arm: &Arm, node: &Node) -> Element {
     let turning = |values: &[f64]| -> Vec<f64> {
-        let turning = arm.hinges.iter().filter(|hinge| hinge.held_rad.is_none());
+        let turning = arm.hinges.iter().filter(|hinge| hinge.held_at.is_none());
         turning.map(|hinge| values[hinge.coordinate]).collect()
     };
     let place = node.position_m.into_iter().chain(node.attitude);

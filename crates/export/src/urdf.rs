@@ -1,6 +1,6 @@
 //! The whole system as URDF: the base as root link, floating when the file is loaded.
 
-use righting_multibody::{Placement, RigidBody};
+use righting_multibody::{JointKind, Placement, RigidBody};
 use righting_scenario::{JointLimits, SystemDescription};
 
 use crate::arm::{Arm, BASE, Hinge, TIP};
@@ -13,7 +13,7 @@ const UNLIMITED: f64 = 1e9;
 /// The system as a URDF robot.
 ///
 /// The root link `base` is the base; whoever loads the file lets it float (URDF itself has no free
-/// root). Link i is the body that joint i turns, in the frame whose z axis is the axis of joint i; bodies
+/// root). Link i is the body that joint i moves, in the frame whose z axis is the axis of joint i; bodies
 /// and joints with names of their own keep them. A payload is part of the last link, a body on a fixed joint
 /// of the one that carries it, and what moves with no joint of the base. Joint angles are the plan's. Locked joints are `fixed`, joints without limits of angle `continuous`. A limit
 /// that there is not stands as 1e9, that of the effort among them. Links without mass have no
@@ -66,13 +66,14 @@ fn joint(hinge: &Hinge, parent: &str) -> Element {
     let JointLimits { angle_min_rad, angle_max_rad, rate_max_rad_s, torque_max_n_m, .. } =
         hinge.limits;
     let is_limited = angle_min_rad.is_finite() || angle_max_rad.is_finite();
-    let kind = match (hinge.held_rad, is_limited) {
-        (Some(_), _) => "fixed",
-        (None, true) => "revolute",
-        (None, false) => "continuous",
+    let kind = match (hinge.held_at, hinge.kind, is_limited) {
+        (Some(_), _, _) => "fixed",
+        (None, JointKind::Prismatic, _) => "prismatic",
+        (None, JointKind::Revolute, true) => "revolute",
+        (None, JointKind::Revolute, false) => "continuous",
     };
     let joint = connection(&hinge.joint, kind, parent, &hinge.link, &hinge.placed());
-    if hinge.held_rad.is_some() {
+    if hinge.held_at.is_some() {
         return joint;
     }
     let mut limit = Element::new("limit");

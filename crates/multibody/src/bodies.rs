@@ -1,11 +1,12 @@
 //! The system as rigid bodies on hinges, the form in which files of other programs describe one.
 //!
-//! Body k is everything that joint k turns and no joint beyond it does; its frame's z axis is the axis of
+//! Body k is everything that joint k moves and no joint beyond it does; its frame's z axis is the axis of
 //! joint k. Where a row of parameters has its mass elsewhere (modified rows have it in the frame
 //! before), it belongs to the body that it moves with; a payload belongs to the last body, and what
 //! moves with no joint to the base.
 
 use crate::inertia::{MassMoments, inertia};
+use crate::jointed_body::JointKind;
 use crate::system::System;
 use crate::tree::{Carried, Tree, snapped};
 use crate::turn::Turn;
@@ -34,15 +35,17 @@ pub struct Placement {
 /// A body on a hinge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HingedBody {
+    /// Whether the hinge turns its body about its z axis or slides it along that.
+    pub kind: JointKind,
     /// The body that carries it, by its joint; none for the base.
     pub parent: Option<usize>,
-    /// Its frame at joint angle zero, in the frame of the body that carries it, the body frame for the base.
-    /// The hinge turns it about its z axis.
+    /// Its frame at joint coordinate zero, in the frame of the body that carries it, the body frame for the
+    /// base.
     pub placement: Placement,
     /// Its mass.
     pub body: RigidBody,
-    /// Whether the hinge turns no inertia at all: everything beyond it is without mass or lies on its
-    /// axis. Such a joint takes no torque and moves nothing.
+    /// Whether the hinge moves no inertia at all: everything beyond it is without mass or, where it turns, lies
+    /// on its axis. Such a joint takes no torque and moves nothing.
     pub is_idle: bool,
 }
 
@@ -52,7 +55,7 @@ impl System {
         RigidBody::of(&self.tree.base)
     }
 
-    /// The bodies that the joints turn, one a joint, in the order of the joint coordinates.
+    /// The bodies that the joints move, one a joint, in the order of the joint coordinates.
     pub fn hinged_bodies(&self) -> Vec<HingedBody> {
         let tree = &self.tree;
         let idle = tree.idle_joints();
@@ -62,6 +65,7 @@ impl System {
             .enumerate()
             .map(|(k, joint)| {
                 let body = HingedBody {
+                    kind: joint.kind,
                     parent: joint.parent.map(|parent| tree.joints[parent].coordinate),
                     placement: tree.start(k).turned(joint.angle),
                     body: RigidBody::of(&joint.body),
@@ -92,7 +96,11 @@ impl Tree {
         let mut idle = vec![true; self.joints.len()];
         for (k, joint) in self.joints.iter().enumerate().rev() {
             let across = beyond[k].second[(0, 0)] + beyond[k].second[(1, 1)];
-            idle[k] = idle[k] && across <= ROUNDING * beyond[k].second.trace();
+            let moves_nothing = match joint.kind {
+                JointKind::Revolute => across <= ROUNDING * beyond[k].second.trace(),
+                JointKind::Prismatic => beyond[k].mass == 0.0,
+            };
+            idle[k] = idle[k] && moves_nothing;
             if let Some(parent) = joint.parent {
                 // What lies on a joint's axis lies there at any angle of that joint.
                 let Placement { position_m, rotation } = self.start(k).turned(joint.angle);
@@ -113,6 +121,11 @@ impl Placement {
     /// The frame turned about its z axis by `angle_rad`.
     pub fn turned_about_z(&self, angle_rad: f64) -> Self {
         self.turned(Turn::new(angle_rad))
+    }
+
+    /// The frame moved along its z axis by `travel_m`.
+    pub fn moved_along_z(&self, travel_m: f64) -> Self {
+        Self { position_m: self.position_m + self.rotation.column(2) * travel_m, ..*self }
     }
 
     /// Of a frame that sits at `inner` in this one, in the frame that this one sits in.

@@ -105,14 +105,21 @@ impl System {
     ) -> Carried<T> {
         self.assert_joint_slice(q);
         let rotations = joint_rotations(&self.tree, q);
+        let travel = |k: usize| {
+            let joint = &self.tree.joints[k];
+            joint.slide.map(|_| q[joint.coordinate])
+        };
         let (inward, outward) = (self.tree.path(from), self.tree.path(to));
         let shared = inward.iter().zip(&outward).take_while(|(a, b)| a == b).count();
         let mut carried = start;
         for &k in inward[shared..].iter().rev() {
-            carried = carried.turned(&rotations[k]).out_of(&self.start_from_root(k));
+            carried = carried.turned(&rotations[k]).moved_along(travel(k));
+            carried = carried.out_of(&self.start_from_root(k));
         }
         for &k in &outward[shared..] {
-            carried = carried.into_frame(&self.start_from_root(k)).turned_back(&rotations[k]);
+            carried = carried.into_frame(&self.start_from_root(k));
+            carried = carried.moved_along(travel(k).map(|travel| -travel));
+            carried = carried.turned_back(&rotations[k]);
         }
         carried
     }
@@ -146,6 +153,14 @@ impl<T: Scalar> Carried<T> {
             point: constant_rotation(&back, &point),
             direction: constant_rotation(&back, &self.direction),
         }
+    }
+
+    /// By so much along z, if at all.
+    fn moved_along(mut self, travel: Option<T>) -> Self {
+        if let Some(travel) = travel {
+            self.point.z += travel;
+        }
+        self
     }
 
     fn turned(self, rotation: &PlaneRotation<T>) -> Self {

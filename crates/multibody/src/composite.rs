@@ -60,7 +60,11 @@ impl<T: Scalar> Composite<T> {
                 let pair = pair.twisted(joint.twist).shifted(&coupling.arm);
                 branches.join(Some(k), Beyond { moments, pair }).turned(rotation)
             };
-            beyond.pair = beyond.pair.plus_turning(&beyond.moments, qdot[joint.coordinate]);
+            let rate = qdot[joint.coordinate];
+            match &joint.slide {
+                Some(slide) => beyond = slide.momenta(beyond, q[joint.coordinate], rate),
+                None => beyond.pair = beyond.pair.plus_turning(&beyond.moments, rate),
+            }
             if let Some(branch) = &joint.branch {
                 let Beyond { moments, pair } = beyond.rotated(&branch.rotation);
                 let moments = moments.coupled(&branch.coupling);

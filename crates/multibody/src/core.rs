@@ -2,10 +2,11 @@
 
 use crate::algebra::constant;
 use crate::distance::Segment;
+use crate::jointed_body::JointKind;
 use crate::kinematics::Kinematics;
 use crate::parts::DhConvention;
 use crate::system::System;
-use crate::tree::Carried;
+use crate::tree::{Carried, Joint};
 use nalgebra::Vector3;
 use righting_scalar::Scalar;
 
@@ -68,18 +69,28 @@ impl System {
         path.into_iter().map(|joint| self.tree.joints[joint].coordinate).collect()
     }
 
-    /// Each joint that moves a core, from the base outward, and how far from a point on its axis a point of
-    /// the core can be at most, whatever the posture, m.
-    pub fn reach_m(&self, core: &Core) -> Vec<(usize, f64)> {
+    /// Each joint that moves a core, from the base outward, and how fast a unit of its rate moves a point of
+    /// the core at most, whatever the posture: for a joint that turns, how far the point can be from its
+    /// axis, m; for one that slides, 1. No coordinate of a joint that slides exceeds the one of `farthest`
+    /// (one a joint, m; those of joints that turn do not count) in magnitude.
+    pub fn levers(&self, core: &Core, farthest: &[f64]) -> Vec<(usize, f64)> {
         let core = self.placed(core);
         let mut beyond_m = core.start.norm().max((core.start + core.direction).norm());
-        let mut reach = Vec::new();
+        let mut levers = Vec::new();
         for joint in self.tree.path(core.joint).into_iter().rev() {
-            reach.push((self.tree.joints[joint].coordinate, beyond_m));
+            let Joint { coordinate, kind, .. } = self.tree.joints[joint];
+            let lever = match kind {
+                JointKind::Revolute => beyond_m,
+                JointKind::Prismatic => {
+                    beyond_m += farthest[coordinate];
+                    1.0
+                }
+            };
+            levers.push((coordinate, lever));
             beyond_m += self.tree.start(joint).position_m.norm();
         }
-        reach.reverse();
-        reach
+        levers.reverse();
+        levers
     }
 
     pub(crate) fn placed(&self, core: &Core) -> LocalCore {

@@ -72,7 +72,7 @@ impl<T: Scalar> Spin<T> {
     }
 
     /// Columns of [α]× + [ω]×[ω]×, which takes a vector fixed in the frame to its acceleration.
-    fn columns(&self) -> [Vector3<T>; 3] {
+    pub fn columns(&self) -> [Vector3<T>; 3] {
         let (w, a) = (&self.rate, &self.acceleration);
         let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
         let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
@@ -174,8 +174,8 @@ fn outward<T: Scalar>(
             rate += qdot[joint.coordinate];
             acceleration += qddot[joint.coordinate];
         } else {
-            rate = qdot[joint.coordinate];
-            acceleration = qddot[joint.coordinate];
+            rate = joint.turning(qdot[joint.coordinate]);
+            acceleration = joint.turning(qddot[joint.coordinate]);
         }
         let in_group = group.plus_turning(rate, acceleration);
         let mut in_joint = None;
@@ -196,7 +196,7 @@ fn joint_spin<T: Scalar>(spins: &[Spins<T>], joint: Option<usize>) -> Option<Spi
 
 impl System {
     /// ω̇ and r̈₀ of the free-floating base turning at `omega` (body axes, rad/s) while its joints
-    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²). Nothing acts from outside but `external`.
+    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s², or m, m/s, m/s²). Nothing acts from outside but `external`.
     ///
     /// # Panics
     /// A slice does not have one value a joint.
@@ -228,6 +228,10 @@ impl System {
                     branches.join(Some(k), onward).turned(rotation)
                 }
             };
+            if let Some(slide) = &joint.slide {
+                let motion = [q, qdot, qddot].map(|of| of[joint.coordinate]);
+                beyond = slide.loads(beyond, &spins[k].in_group, motion);
+            }
             if let Some(branch) = &joint.branch {
                 let spin = joint_spin(&spins, joint.parent).unwrap_or(steady);
                 let branching = beyond.rotated(&branch.rotation).coupled(&branch.coupling, &spin);

@@ -11,16 +11,19 @@ use crate::bodies::Placement;
 use crate::dynamics::{BaseAcceleration, Spin};
 use crate::external::{External, GravityGradient};
 use crate::inertia::{MassMoments, inertia};
+use crate::slide::acceleration_along;
 use crate::state::State;
 use crate::sweep::{Pair, joint_rotations};
 use crate::system::System;
+use crate::tree::Joint;
 use nalgebra::{Matrix3, Vector3};
 use righting_scalar::Scalar;
 
 /// What it takes to move the system in a given way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseDynamics<T> {
-    /// Torque of each joint's motor on its outboard link about the joint's axis (j), N m.
+    /// Torque of each joint's motor on its outboard link about the joint's axis (j), N m; force along it, N,
+    /// where the joint slides.
     pub joint_torques: Vec<T>,
     /// What the base and the arm do to each other at the mount.
     pub mount: MountLoad<T>,
@@ -60,10 +63,49 @@ impl<T: Scalar> Motion<T> {
         }
     }
 
-    fn turned(&self, rotation: &PlaneRotation<T>, rate: T, acceleration: T) -> Self {
+    /// Of K, from that of the frame in which its joint turns or slides, whose origin accelerates.
+    fn moved(&self, joint: &Joint, rotation: &PlaneRotation<T>, motion: [T; 3]) -> Self {
+        let [_, rate, acceleration] = motion;
+        let origin = match joint.slide {
+            Some(_) => sum(&self.origin, &self.acceleration_along(motion)),
+            None => self.origin,
+        };
+        self.turned(origin, joint, rotation, [rate, acceleration])
+    }
+
+    /// By how much more than the origin a point accelerates that moves along z.
+    fn acceleration_along(&self, motion: [T; 3]) -> Vector3<T> {
+        let swing = acceleration_along(&self.spin, motion);
+        match &self.gravity_gradient {
+            None => swing,
+            Some(gradient) => {
+                let along = Vector3::new(T::from(0.0), T::from(0.0), motion[0]);
+                difference(&swing, &gradient.acceleration(&along))
+            }
+        }
+    }
+
+    /// The same, its origin's motion being a velocity.
+    fn swept(&self, joint: &Joint, rotation: &PlaneRotation<T>, [q, rate]: [T; 2]) -> Self {
+        let (at, spin) = (&self.origin, &self.spin.rate);
+        let origin = match joint.slide {
+            Some(_) => Vector3::new(at.x + spin.y * q, at.y - spin.x * q, at.z + rate),
+            None => *at,
+        };
+        self.turned(origin, joint, rotation, [rate, T::from(0.0)])
+    }
+
+    fn turned(
+        &self,
+        origin: Vector3<T>,
+        joint: &Joint,
+        rotation: &PlaneRotation<T>,
+        rates: [T; 2],
+    ) -> Self {
+        let [rate, acceleration] = rates.map(|rate| joint.turning(rate));
         Self {
             spin: self.spin.plus_turning(rate, acceleration).turned_back(rotation),
-            origin: rotation.turn_back(&self.origin),
+            origin: rotation.turn_back(&origin),
             gravity_gradient: self.gravity_gradient.map(|gradient| gradient.turned_back(rotation)),
         }
     }
@@ -141,7 +183,7 @@ impl System {
             let next = sum(&parent.origin, &parent.acceleration_of(&position_m));
             let before = Motion { origin: next, ..parent }.rotated_back(&rotation);
             let at = joint.coordinate;
-            let motion = before.turned(&rotations[k], qdot[at], qddot[at]);
+            let motion = before.moved(joint, &rotations[k], [q[at], qdot[at], qddot[at]]);
             loads.push(motion.load_of(&joint.body));
             motions.push(motion);
         }
@@ -150,9 +192,14 @@ impl System {
         let mut beyond: Option<Pair<T>> = None;
         for (k, joint) in tree.joints.iter().enumerate().rev() {
             let load = &loads[k];
-            joint_torques[joint.coordinate] = load.angular.z;
+            let at = joint.coordinate;
+            joint_torques[at] = if joint.slide.is_some() { load.linear.z } else { load.angular.z };
             let Placement { position_m, rotation } = tree.start(k);
-            let carried = load.turned(&rotations[k]).rotated(&rotation);
+            let at_start = match joint.slide {
+                Some(_) => load.turned(&rotations[k]).shifted_along(q[at]),
+                None => load.turned(&rotations[k]),
+            };
+            let carried = at_start.rotated(&rotation);
             let about_parent = carried.shifted(&position_m);
             match joint.parent {
                 Some(parent) => loads[parent] = about_parent.plus(&loads[parent]),
@@ -178,7 +225,7 @@ impl System {
         }
     }
 
-    /// Joint torques (j, N m) of the free-floating system turning at `omega` (body axes, rad/s)
+    /// Joint torques (j, N m; N where a joint slides) of the free-floating system turning at `omega` (body axes, rad/s)
     /// with joints at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s²). Nothing acts from outside but `external`.
     pub fn joint_torques<T: Scalar>(
         &self,
@@ -213,7 +260,6 @@ impl System {
         self.assert_joint_slice(&state.joint_angles);
         self.assert_joint_slice(&state.joint_rates);
         let tree = &self.tree;
-        let still = T::from(0.0);
         let body = Motion {
             spin: Spin { rate: state.angular_rate, acceleration: zero() },
             origin: state.attitude.to_body(&state.velocity),
@@ -229,8 +275,9 @@ impl System {
             let Placement { position_m, rotation } = tree.start(k);
             let parent = joint.parent.map_or(body, |parent| motions[parent]);
             let before = Motion { origin: swing(&parent, &position_m), ..parent };
-            let rate = state.joint_rates[joint.coordinate];
-            let motion = before.rotated_back(&rotation).turned(&rotations[k], rate, still);
+            let [q, rate] =
+                [&state.joint_angles, &state.joint_rates].map(|of| of[joint.coordinate]);
+            let motion = before.rotated_back(&rotation).swept(joint, &rotations[k], [q, rate]);
             energy += motion.energy_of(&joint.body);
             motions.push(motion);
         }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 /// A rigid body and the joint that it moves on.
 ///
 /// At joint coordinate zero the body's frame is the joint's; from there the joint turns it about an axis
-/// that is fixed in both.
+/// that is fixed in both, or slides it along one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointedBody {
     /// The body that carries the joint, by its place in the list; none for the base.
@@ -28,6 +28,28 @@ pub enum BodyJoint {
     Fixed,
     /// Turn about this axis in the joint's frame, of any length but zero.
     Revolute(Vector3<f64>),
+    /// Slide along this axis in the joint's frame, of any length but zero.
+    Prismatic(Vector3<f64>),
+}
+
+/// What the coordinate of a joint that moves is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum JointKind {
+    /// An angle, rad: the joint turns, and its motor gives a torque, N m.
+    Revolute,
+    /// A travel, m: the joint slides, and its motor gives a force, N.
+    Prismatic,
+}
+
+impl BodyJoint {
+    /// The kind and axis of a joint that moves.
+    pub(crate) fn motion(&self) -> Option<(JointKind, &Vector3<f64>)> {
+        match self {
+            Self::Fixed => None,
+            Self::Revolute(axis) => Some((JointKind::Revolute, axis)),
+            Self::Prismatic(axis) => Some((JointKind::Prismatic, axis)),
+        }
+    }
 }
 
 impl JointedBody {
@@ -50,7 +72,7 @@ impl JointedBody {
             value.iter().try_for_each(|value| check_finite(part, quantity, *value))?;
         }
         check_rotation(part, "joint.rotation", &self.placement.rotation)?;
-        if let BodyJoint::Revolute(axis) = &self.joint {
+        if let Some((_, axis)) = self.joint.motion() {
             axis.iter().try_for_each(|value| check_finite(part, "joint.axis", *value))?;
             if axis.amax() == 0.0 {
                 return Err(ModelError::NoAxis { part });
@@ -124,14 +146,19 @@ impl Bodies {
     }
 
     /// The way from one body to another over the joints that move, as the distances of neighbouring ones
-    /// together, m; zero for bodies that are fixed to each other or share a joint.
+    /// together, m; zero for bodies that are fixed to each other or share a joint, infinite where a joint
+    /// between the two slides that neither shares.
     pub fn length_between_m(&self, a: usize, b: usize) -> f64 {
         let (from_a, from_b) = (self.joints_of(a), self.joints_of(b));
         let shared = from_a.iter().zip(&from_b).take_while(|(a, b)| a == b).count();
         // Inward to the body that carries both, then outward; where one carries the other only that.
         let (a, b) = (&from_a[shared..], &from_b[shared..]);
         let along = |joints: &[usize]| -> f64 {
-            joints.windows(2).map(|pair| self.offset_m(pair[0], pair[1]).norm()).sum()
+            let length_m = |pair: &[usize]| match self.list[pair[0]].joint {
+                BodyJoint::Prismatic(_) => f64::INFINITY,
+                _ => self.offset_m(pair[0], pair[1]).norm(),
+            };
+            joints.windows(2).map(length_m).sum()
         };
         let across_m = match (a.first(), b.first()) {
             (Some(&a), Some(&b)) => {

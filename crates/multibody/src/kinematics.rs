@@ -67,7 +67,8 @@ impl<T: Scalar> Frame<T> {
 pub struct Kinematics<T> {
     /// Unit vector of each joint's axis.
     pub joint_axes: Vec<Vector3<T>>,
-    /// A point on each joint's axis, the same for every value of that joint's angle, m.
+    /// A point on each joint's axis, m: the same for every angle of the joint; of one that slides, it moves
+    /// along.
     pub joint_origins: Vec<Vector3<T>>,
     /// Of rows, the Denavit-Hartenberg frames 0…j; frame 0 is the mount. Of bodies, the body frame and then
     /// the frame of each body.
@@ -86,7 +87,7 @@ impl System {
     pub fn kinematics<T: Scalar>(&self, q: &[T]) -> Kinematics<T> {
         self.assert_joint_slice(q);
         let tree = &self.tree;
-        let joint_frames = joint_frames(tree, &group_rotations(tree, q));
+        let joint_frames = joint_frames(tree, q);
         let in_coordinates = |of: fn(&Frame<T>) -> Vector3<T>| {
             let mut values = vec![zero(); q.len()];
             for (joint, frame) in tree.joints.iter().zip(&joint_frames) {
@@ -120,15 +121,13 @@ impl System {
 }
 
 /// The frames K of the joints (see [`Tree`]) in body axes.
-pub(crate) fn joint_frames<T: Scalar>(
-    tree: &Tree,
-    rotations: &[PlaneRotation<T>],
-) -> Vec<Frame<T>> {
+pub(crate) fn joint_frames<T: Scalar>(tree: &Tree, q: &[T]) -> Vec<Frame<T>> {
+    let rotations = group_rotations(tree, q);
     // The frame in which the joints of the current group turn.
     let mut group =
         Frame { origin: constant(&tree.root_position), axes: columns(&tree.root_rotation) };
     let mut frames: Vec<Frame<T>> = Vec::with_capacity(tree.joints.len());
-    for (k, (joint, rotation)) in tree.joints.iter().zip(rotations).enumerate() {
+    for (k, (joint, rotation)) in tree.joints.iter().zip(&rotations).enumerate() {
         if joint.branch.is_some() {
             let Placement { position_m, rotation } = tree.start(k);
             group = match joint.parent {
@@ -136,7 +135,11 @@ pub(crate) fn joint_frames<T: Scalar>(
                 None => Frame { origin: constant(&position_m), axes: columns(&rotation) },
             };
         }
-        let frame = group.turned(rotation);
+        let mut frame = group.turned(rotation);
+        if joint.slide.is_some() {
+            let travel = scaled(&frame.axes[2], q[joint.coordinate]);
+            frame.origin = sum(&frame.origin, &travel);
+        }
         group = if tree.continues_group(k + 1) {
             Frame { origin: frame.point(&joint.offset), axes: group.axes }
         } else {

@@ -1,6 +1,6 @@
-//! Free-floating base and the tree of revolute joints on it.
+//! Free-floating base and the tree of joints on it, which turn or slide.
 //!
-//! A base body 0 carries bodies on revolute joints q ∈ R^j; no force acts from outside. With r_i,
+//! A base body 0 carries bodies on joints q ∈ R^j, revolute or prismatic; no force acts from outside. With r_i,
 //! r_CM the centres of mass of bodies and system from the body-frame origin, in body axes, and a
 //! prime for the derivative seen from the body frame, the angular momentum about the system's centre
 //! of mass is (Bhundiya, Soval, Albee 2026, equations 2 to 4)
@@ -50,7 +50,8 @@
 //! ```
 //!
 //! # Conventions
-//! SI units and radians. The body frame's origin is wherever the base's centre of mass is given from, by
+//! SI units and radians: of a joint that slides, everything that is said of angles and torques holds for
+//! its travel (m) and force (N). The body frame's origin is wherever the base's centre of mass is given from, by
 //! default that itself. Quaternions are
 //! scalar first, multiply by Hamilton's rule and turn body vectors into inertial ones; ω is in body
 //! axes, r and ṙ are inertial. See [`DhConvention`] for rows of parameters, [`JointedBody`] for trees. Everything is generic over
@@ -101,6 +102,7 @@ mod nearest_inertia;
 mod parts;
 mod roll_pitch_yaw;
 mod rows;
+mod slide;
 mod state;
 mod sweep;
 mod symmetric;
@@ -119,7 +121,7 @@ pub use dynamics::BaseAcceleration;
 pub use error::{ModelError, Part};
 pub use external::{External, GravityGradient};
 pub use inverse_dynamics::InverseDynamics;
-pub use jointed_body::{BodyJoint, JointedBody};
+pub use jointed_body::{BodyJoint, JointKind, JointedBody};
 pub use kinematics::{Frame, Kinematics};
 pub use momentum_map::MomentumMap;
 pub use nearest_inertia::nearest_inertia;

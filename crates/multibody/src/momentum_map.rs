@@ -4,7 +4,7 @@ use crate::algebra::{constant, constant_rotation, cross, difference, scaled, sum
 use crate::branches::{Beyond, Branches};
 use crate::coupling::Coupling;
 use crate::kinematics::joint_frames;
-use crate::sweep::{Moments, group_rotations};
+use crate::sweep::Moments;
 use crate::symmetric::Symmetric;
 use crate::system::System;
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
@@ -15,15 +15,15 @@ use righting_scalar::Scalar;
 pub struct MomentumMap<T> {
     /// Ĩ, symmetric positive definite, kg m².
     pub inertia: Matrix3<T>,
-    /// B, one column a joint (3×j), kg m².
+    /// B, one column a joint (3×j), kg m²; kg m where the joint slides.
     pub joint_columns: Matrix3xX<T>,
 }
 
 impl System {
-    /// Ĩ(q) and B(q), with H̃ = B q̇, at joint angles `q` (j, rad).
+    /// Ĩ(q) and B(q), with H̃ = B q̇, at joint coordinates `q` (j; rad or m).
     ///
     /// Works in body axes throughout: column k is what all that lies beyond joint k, turning as one
-    /// body about that joint, adds to the angular momentum. Where only H̃ is wanted,
+    /// body about that joint or sliding along it, adds to the angular momentum. Where only H̃ is wanted,
     /// [`System::h_tilde`] takes half the operations.
     ///
     /// # Panics
@@ -31,7 +31,7 @@ impl System {
     pub fn momentum_map<T: Scalar>(&self, q: &[T]) -> MomentumMap<T> {
         self.assert_joint_slice(q);
         let tree = &self.tree;
-        let frames = joint_frames(tree, &group_rotations(tree, q));
+        let frames = joint_frames(tree, q);
         let turned = |k: Option<usize>, c: &Vector3<f64>| match k {
             Some(k) => frames[k].vector(c),
             None => constant(c),
@@ -59,6 +59,9 @@ impl System {
             onward[k] = beyond.first;
             beyond = branches.join(Some(k), Beyond::at_rest(beyond)).moments;
             all[k] = beyond;
+            if let Some(slide) = &joint.slide {
+                beyond = slide.moments_along(beyond, &frames[k].axes[2], q[joint.coordinate]);
+            }
             if let Some(branch) = &joint.branch {
                 let shifted = coupled(joint.parent, &branch.coupling, &beyond);
                 branching[k] = shifted.first;
@@ -75,6 +78,7 @@ impl System {
             let others = difference(&all.first, own);
             difference(reach, &scaled(&others, T::from(self.total_mass().recip())))
         };
+        // Of each joint, from the origin of K, so that a slide is behind.
         let mut reaches: Vec<Vector3<T>> = Vec::with_capacity(frames.len());
         for (k, joint) in tree.joints.iter().enumerate() {
             let to_parent = joint.parent.map_or(across, |parent| reaches[parent]);
@@ -93,15 +97,25 @@ impl System {
                 }
                 (None, None) => to_parent,
             };
-            reaches.push(reach);
+            reaches.push(match &joint.slide {
+                Some(slide) => {
+                    sum(&reach, &slide.arm_along(&frames[k].axes[2], q[joint.coordinate]))
+                }
+                None => reach,
+            });
         }
 
         let mut columns = vec![zero(); frames.len()];
         for (k, joint) in tree.joints.iter().enumerate() {
             let Moments { first, second } = &all[k];
             let axis = &frames[k].axes[2];
-            let spin = second.inertia().times(axis);
-            columns[joint.coordinate] = sum(&spin, &cross(&reaches[k], &cross(axis, first)));
+            columns[joint.coordinate] = match &joint.slide {
+                Some(slide) => slide.column(&all[k], axis, &reaches[k]),
+                None => {
+                    let spin = second.inertia().times(axis);
+                    sum(&spin, &cross(&reaches[k], &cross(axis, first)))
+                }
+            };
         }
         let base = Symmetric::constant(&tree.root.second).rotated(&tree.root_rotation);
         let second = whole.second.plus_outer(&whole.first, &across).plus_matrix(&base);

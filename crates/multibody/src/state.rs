@@ -17,9 +17,9 @@ pub struct State<T> {
     pub velocity: Vector3<T>,
     /// ω of the base, body axes, rad/s.
     pub angular_rate: Vector3<T>,
-    /// q, rad.
+    /// q, rad; m of joints that slide.
     pub joint_angles: Vec<T>,
-    /// q̇, rad/s.
+    /// q̇, rad/s; m/s of joints that slide.
     pub joint_rates: Vec<T>,
 }
 

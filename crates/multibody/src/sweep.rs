@@ -42,9 +42,21 @@ impl<T: Scalar> PlaneRotation<T> {
     }
 }
 
-/// Each joint's rotation from K to the axes in which the joint turns.
+impl Joint {
+    /// The angle by which it turns: none where it slides.
+    fn turned_by<T: Scalar>(&self, q: &[T]) -> T {
+        self.turning(q[self.coordinate])
+    }
+
+    /// Of a coordinate, rate or acceleration what turns: none where it slides.
+    pub fn turning<T: Scalar>(&self, value: T) -> T {
+        if self.slide.is_some() { T::from(0.0) } else { value }
+    }
+}
+
+/// Each joint's rotation from K to the axes in which the joint turns or slides.
 pub(crate) fn joint_rotations<T: Scalar>(tree: &Tree, q: &[T]) -> Vec<PlaneRotation<T>> {
-    let rotation = |joint: &Joint| PlaneRotation::of(q[joint.coordinate], joint.angle);
+    let rotation = |joint: &Joint| PlaneRotation::of(joint.turned_by(q), joint.angle);
     tree.joints.iter().map(rotation).collect()
 }
 
@@ -59,7 +71,7 @@ pub(crate) fn group_rotations<T: Scalar>(tree: &Tree, q: &[T]) -> Vec<PlaneRotat
             angle += q[joint.coordinate];
             start = start.plus(joint.angle);
         } else {
-            angle = q[joint.coordinate];
+            angle = joint.turned_by(q);
             start = joint.angle;
         }
         rotations.push(PlaneRotation::of(angle, start));
@@ -226,6 +238,13 @@ impl<T: Scalar> Pair<T> {
             linear: self.linear,
             angular: sum(&self.angular, &constant_cross(arm, &self.linear)),
         }
+    }
+
+    /// Counts the angular part about a point from which this one lies so far along z.
+    pub fn shifted_along(self, z: T) -> Self {
+        let Self { linear, angular } = self;
+        let moment = Vector3::new(angular.x - z * linear.y, angular.y + z * linear.x, angular.z);
+        Self { linear, angular: moment }
     }
 
     /// The same in the axes in which the joint's group turns.

@@ -47,6 +47,11 @@ impl<T: Scalar> Symmetric<T> {
         }
     }
 
+    /// Adds a matrix that has entries in its last row and column only.
+    pub fn plus_along_z(self, xz: T, yz: T, zz: T) -> Self {
+        Self { xz: self.xz + xz, yz: self.yz + yz, zz: self.zz + zz, ..self }
+    }
+
     /// Adds g cᵀ + c gᵀ.
     pub fn plus_product_constant(self, g: &Vector3<T>, c: &Vector3<f64>) -> Self {
         let mixed = |entry: T, i: usize, j: usize| {

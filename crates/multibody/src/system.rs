@@ -2,14 +2,15 @@
 
 use crate::bodies::{Placement, RigidBody};
 use crate::error::ModelError;
-use crate::jointed_body::{Bodies, JointedBody};
+use crate::jointed_body::{Bodies, JointKind, JointedBody};
 use crate::parts::{Base, DhConvention, Link, Mount, Payload};
 use crate::rows::Rows;
 use crate::tree::Tree;
 
-/// A free-floating base and the revolute joints on it, checked once and immutable.
+/// A free-floating base and the joints on it, checked once and immutable.
 ///
-/// Joint coordinates are in the order of the rows, or of the bodies that have one; angles in rad.
+/// Joint coordinates are in the order of the rows, or of the bodies that have one: angles in rad, and of
+/// joints that slide travels in m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct System {
     base: Base,
@@ -64,6 +65,15 @@ impl System {
             Arm::Bodies(bodies) => bodies.tree(&base)?,
         };
         Ok(Self { base, arm, tree })
+    }
+
+    /// What the coordinate of each joint is.
+    pub fn joint_kinds(&self) -> Vec<JointKind> {
+        let mut kinds = vec![JointKind::Revolute; self.joint_count()];
+        for joint in &self.tree.joints {
+            kinds[joint.coordinate] = joint.kind;
+        }
+        kinds
     }
 
     /// Number of joints j.
@@ -129,7 +139,8 @@ impl System {
     }
 
     /// Length of what is between two links or bodies (counted from zero) together, m: the two are never
-    /// farther apart. Zero for those that share a joint, and for one and itself.
+    /// farther apart. Zero for those that share a joint, and for one and itself; infinite where a joint
+    /// between two bodies slides that neither shares.
     pub fn length_between_m(&self, a: usize, b: usize) -> f64 {
         match &self.arm {
             Arm::Rows(rows) => rows.length_between_m(a, b),

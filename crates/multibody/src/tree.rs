@@ -1,6 +1,7 @@
 //! The tree of joints in one form, however it was described, with its constants worked out.
 //!
-//! Joint k turns about the z axis of frame K(k), whose origin lies on the joint's axis. Joints are in
+//! Joint k turns about the z axis of frame K(k), whose origin lies on the joint's axis, or slides K(k) along
+//! it. Joints are in
 //! depth-first order: each one goes on from the joint before it, or begins a branch at one farther in or
 //! at the base. Between a joint and the one that goes on from it the frames differ by constants and one
 //! angle:
@@ -11,13 +12,16 @@
 //!
 //! Any rotation is Rz Rx Rz, and a rotation about z of either joint is no more than another place where
 //! its angle is zero, so that this loses nothing. Where a branch begins, a joint has more than one to hand
-//! its z axis to, and the rotation is a matrix.
+//! its z axis to, and the rotation is a matrix. A joint that slides has its angle as a constant, and K(k) lies
+//! q(k) along z from where it starts.
 
 use crate::bodies::Placement;
 use crate::coupling::{Barycentric, Coupling, RootCoupling};
 use crate::error::{ModelError, Part};
 use crate::inertia::MassMoments;
+use crate::jointed_body::JointKind;
 use crate::parts::Base;
+use crate::slide::Slide;
 use crate::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 
@@ -44,20 +48,24 @@ pub(crate) struct Tree {
     pub centers: Vec<(Option<usize>, Vector3<f64>)>,
 }
 
-/// One joint with the rigid body that it turns.
+/// One joint with the rigid body that it moves.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Joint {
     /// Its place among the joint coordinates.
     pub coordinate: usize,
     /// What an error about it names.
     pub part: Part,
+    /// What its coordinate is.
+    pub kind: JointKind,
+    /// How it slides; none where it turns.
+    pub slide: Option<Slide>,
     /// The joint that carries this one; none on the base.
     pub parent: Option<usize>,
     /// Where it begins, if it does not go on from the joint before it.
     pub branch: Option<Branch>,
     /// Angle of K(k) where the joint coordinate is zero.
     pub angle: Turn,
-    /// The rigid body that turns with this joint, about the origin and in the axes of K(k).
+    /// The rigid body that moves with this joint, about the origin and in the axes of K(k).
     pub body: MassMoments,
     /// From the origin of K(k) to that of K(k+1), or to the last origin.
     pub offset: Vector3<f64>,
@@ -118,7 +126,7 @@ impl Tree {
             return Err(ModelError::Overflow { part: Part::Base });
         }
         let mut along = Vector3::zeros();
-        if is_single && !self.has_branches(0) {
+        if is_single && !self.has_branches(0) && !self.slides(0) {
             (self.root, along) = RootCoupling::new(&base, &self.root_rotation);
         } else {
             self.root = RootCoupling::whole(&base, &self.root_rotation);
@@ -129,6 +137,8 @@ impl Tree {
             let constants = Barycentric::new(&joint.body, &joint.offset, onward, total);
             let constants = if k == 0 { constants.shifted(&along) } else { constants };
             let is_finite = constants.is_finite();
+            let slides = joint.kind == JointKind::Prismatic;
+            joint.slide = slides.then(|| Slide::new(beyond[k], total));
             joint.coupling = Coupling::new(constants);
             let overflow = ModelError::Overflow { part: joint.part };
             if !is_finite {
@@ -162,17 +172,26 @@ impl Tree {
         self.joints.get(k + 1).is_some_and(|next| next.branch.is_none())
     }
 
+    /// Whether joint k slides.
+    fn slides(&self, k: usize) -> bool {
+        self.joints.get(k).is_some_and(|joint| joint.kind == JointKind::Prismatic)
+    }
+
     /// Whether a branch begins at joint k.
     pub fn has_branches(&self, k: usize) -> bool {
         let is_branch = |joint: &Joint| joint.branch.is_some() && joint.parent == Some(k);
         self.joints.iter().any(is_branch)
     }
 
-    /// Whether joint k turns about an axis parallel to that of joint k−1, which it goes on from and
-    /// nothing else does.
+    /// Whether joint k turns about an axis parallel to that of joint k−1, which turns too and which it goes
+    /// on from and nothing else does.
     pub fn continues_group(&self, k: usize) -> bool {
         let Some(before) = k.checked_sub(1) else { return false };
-        self.goes_on(before) && self.joints[before].twist.is_none() && !self.has_branches(before)
+        self.goes_on(before)
+            && self.joints[before].twist.is_none()
+            && !self.has_branches(before)
+            && !self.slides(before)
+            && !self.slides(k)
     }
 
     /// The joints that carry joint k, from the base to itself; none for the base.
@@ -204,6 +223,8 @@ impl Joint {
         Self {
             coordinate,
             part,
+            kind: JointKind::Revolute,
+            slide: None,
             parent: coordinate.checked_sub(1),
             branch: None,
             angle,

@@ -8,7 +8,7 @@
 use crate::bodies::Placement;
 use crate::coupling::Coupling;
 use crate::error::{ModelError, Part};
-use crate::jointed_body::{Bodies, BodyJoint};
+use crate::jointed_body::Bodies;
 use crate::parts::Base;
 use crate::tree::{Branch, Carried, Joint, Tree, snapped};
 use crate::turn::Turn;
@@ -29,15 +29,15 @@ impl Bodies {
             let on_base = Carried { joint: None, placement: Placement::identity() };
             let parent = body.parent.map_or(on_base, |parent| carried[parent].clone());
             let in_parent = parent.placement.then(&body.placement);
-            carried[index] = match body.joint {
-                BodyJoint::Fixed => Carried { placement: in_parent, ..parent },
-                BodyJoint::Revolute(axis) => {
+            carried[index] = match body.joint.motion() {
+                None => Carried { placement: in_parent, ..parent },
+                Some((kind, axis)) => {
                     let to_axis = onto(&axis.normalize());
                     let rotation = (in_parent.rotation * to_axis).map(snapped);
                     starts.push(Placement { rotation, ..in_parent });
                     let coordinate = coordinates[index].unwrap_or_default();
                     let joint = Joint::new(coordinate, Part::Body(index), Turn::NONE);
-                    tree.joints.push(Joint { parent: parent.joint, ..joint });
+                    tree.joints.push(Joint { kind, parent: parent.joint, ..joint });
                     let placement =
                         Placement { position_m: Vector3::zeros(), rotation: to_axis.transpose() };
                     Carried { joint: Some(tree.joints.len() - 1), placement }

@@ -2,7 +2,7 @@
 
 use crate::bodies::{Placement, RigidBody};
 use crate::error::ModelError;
-use crate::jointed_body::JointedBody;
+use crate::jointed_body::{JointKind, JointedBody};
 use crate::parts::{Base, Link, Mount, Payload};
 use crate::rows::Rows;
 use crate::system::{Arm, System};
@@ -21,6 +21,14 @@ pub struct Units {
 impl Units {
     /// Metre, kilogram, second.
     pub const SI: Self = Self { length_m: 1.0, mass_kg: 1.0, time_s: 1.0 };
+
+    /// The unit of a joint's coordinate: a radian, or the unit of length in m where the joint slides.
+    pub fn of_joint(&self, kind: JointKind) -> f64 {
+        match kind {
+            JointKind::Revolute => 1.0,
+            JointKind::Prismatic => self.length_m,
+        }
+    }
 
     /// The unit of torque and of energy, N m.
     pub fn torque_n_m(&self) -> f64 {

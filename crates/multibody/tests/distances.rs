@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use num_dual::HyperDual64;
 use proptest::prelude::*;
-use righting_multibody::{Core, Segment};
+use righting_multibody::{Core, JointKind, Segment};
 use righting_scalar::Scalar;
 use support::random;
 
@@ -225,13 +225,19 @@ proptest! {
         let expected = first.squared_distance_to_point(&from_m);
         let squared = system.squared_distance_to_point(q, &cores[0], &from_m);
         prop_assert!((squared - expected).abs() < 1e-12, "{} {}", squared, expected);
-        let reach_m = system.reach_m(&cores[0]);
-        let moving: Vec<usize> = reach_m.iter().map(|(joint, _)| *joint).collect();
+        let farthest: Vec<f64> = q.iter().map(|q| q.abs()).collect();
+        let levers = system.levers(&cores[0], &farthest);
+        let moving: Vec<usize> = levers.iter().map(|(joint, _)| *joint).collect();
         prop_assert_eq!(moving, system.joints_moving(&cores[0]));
-        for (joint, reach_m) in reach_m {
+        let kinds = system.joint_kinds();
+        for (joint, lever) in levers {
+            if kinds[joint] == JointKind::Prismatic {
+                prop_assert_eq!(lever, 1.0);
+                continue;
+            }
             let origin = posture.joint_origins[joint];
             let farthest_m = (first.start - origin).norm().max((first.end() - origin).norm());
-            prop_assert!(farthest_m < reach_m + 1e-12, "{} {}", farthest_m, reach_m);
+            prop_assert!(farthest_m < lever + 1e-12, "{} {}", farthest_m, lever);
         }
     }
 }

@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("misses the target by {:.1e} deg", solution.terminal.attitude_error_deg);
     println!("checked by an independent model: {}", solution.verification.passed);
     let file = std::env::temp_dir().join("righting_slew_4dof.csv");
-    planned.trajectory.write_csv(&file)?;
+    planned.trajectory.write_csv(&scenario.system().model.joint_kinds(), &file)?;
     println!("{}", file.display());
     Ok(())
 }

@@ -145,7 +145,7 @@ pub(crate) fn passed_limits(
         .min(MOST_LACKING * size)
         .max(LEAST_LACKING * size);
     let mut passed = PassedLimits::default();
-    let mut approach = Approach::new(clearances, lacking);
+    let mut approach = Approach::new(clearances, joint_limits, lacking);
     for ((x, next), u) in states.rows().zip(states.rows().skip(1)).zip(controls.rows()) {
         let step = Step {
             angles: coordinates.joint_angles(x),

@@ -161,10 +161,13 @@ impl Feedback {
         let errors = 3 + 2 * joints;
         let weights = self.scenario.weights();
         // The cost of the attitude is that of half the angle.
+        // A unit of a joint's coordinate counts so many radians.
+        let counts: Vec<f64> =
+            self.scenario.system().radians_a_unit().iter().map(|counts| counts.powi(2)).collect();
         let of_end = |entry: usize| match entry {
             0..3 => 0.25 * weights.attitude,
-            _ if entry < 3 + joints => weights.joint_angle,
-            _ => weights.joint_rate,
+            _ if entry < 3 + joints => weights.joint_angle * counts[entry - 3],
+            _ => weights.joint_rate * counts[entry - 3 - joints],
         };
         let mut cost = DMatrix::from_diagonal(&DVector::from_fn(errors, |entry, _| of_end(entry)));
         let effort = weights.control_per_step(self.scenario.horizon()).max(f64::MIN_POSITIVE);
@@ -173,7 +176,8 @@ impl Feedback {
             let both = self.linearized(step);
             let (a, b) = (both.columns(0, errors), both.columns(errors, joints));
             let ahead = b.transpose() * &cost;
-            let curvature = &ahead * b + DMatrix::from_diagonal_element(joints, joints, effort);
+            let curvature = &ahead * b
+                + DMatrix::from_diagonal(&(&DVector::from_column_slice(&counts) * effort));
             let gain = match curvature.cholesky() {
                 Some(factor) => factor.solve(&(ahead * a)),
                 None => DMatrix::zeros(joints, errors),

@@ -3,6 +3,7 @@
 use righting_results::WaypointRecord;
 use righting_results::solution::{Status, Terminal};
 use righting_results::trajectory::Trajectory;
+use righting_scenario::file::JointKind;
 use righting_scenario::scenario::{Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
@@ -123,6 +124,10 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
     };
     let (nodes, intervals) = (trajectory.nodes(), trajectory.intervals());
     for (joint, limits) in scenario.system().joint_limits.iter().enumerate() {
+        let (coordinate, effort) = match limits.kind {
+            JointKind::Revolute => ("angle", "torque"),
+            JointKind::Prismatic => ("travel", "force"),
+        };
         let is_fast = |value: f64, limit: f64| value.abs() >= limit * (1.0 - AT_LIMIT);
         let accelerating = intervals.iter().filter(|interval| {
             is_fast(interval.joint_accelerations_rad_s2[joint], limits.acceleration_max_rad_s2)
@@ -144,13 +149,13 @@ fn active_limits(scenario: &Scenario, trajectory: &Trajectory) -> Vec<String> {
             );
             torque_n_m.abs() >= (1.0 - NEAR_TORQUE) * limits.torque_max_n_m
         });
-        note(joint, "torque", pushing.count(), intervals.len());
+        note(joint, effort, pushing.count(), intervals.len());
         let margin = AT_LIMIT * (limits.angle_max_rad - limits.angle_min_rad);
         let turned = nodes.iter().filter(|n| {
             let angle = n.joint_angles_rad[joint];
             angle <= limits.angle_min_rad + margin || angle >= limits.angle_max_rad - margin
         });
-        note(joint, "angle", turned.count(), nodes.len());
+        note(joint, coordinate, turned.count(), nodes.len());
     }
     active
 }

@@ -24,7 +24,7 @@ use righting_results::solution::{SCHEMA, Status};
 use righting_results::trajectory::Trajectory;
 use righting_results::{SOLUTION_FILE, TRAJECTORY_FILE};
 use righting_scenario::error::{Error, Mismatch};
-use righting_scenario::file::{self, ManeuverType, SystemReference};
+use righting_scenario::file::{self, JointKind, ManeuverType, SystemReference};
 use righting_scenario::json::{Document, FileKind};
 use righting_scenario::scenario::Scenario;
 use serde::Deserialize;
@@ -252,8 +252,13 @@ fn distance(a: &file::Scenario, b: &file::Scenario) -> Option<f64> {
     };
     let [a_s, b_s] = [a, b].map(|scenario| scenario.horizon.duration_s.longest_s());
     let duration = (a_s / b_s).ln();
-    let joints = a.initial.joint_angles_deg.iter().zip(&b.initial.joint_angles_deg);
-    let joints: f64 = joints.map(|(a, b)| (a - b).to_radians().powi(2)).sum();
+    let angles = a.initial.joint_angles_deg.iter().zip(&b.initial.joint_angles_deg);
+    let angles = angles.map(|(a, b)| (a - b).to_radians());
+    // Of the range that the joint has.
+    let ranges = sliding_ranges_m(a);
+    let travels = a.initial.joint_travels_m.iter().zip(&b.initial.joint_travels_m).zip(ranges);
+    let travels = travels.map(|((a, b), range_m)| (a - b) / range_m);
+    let joints: f64 = angles.chain(travels).map(|off| off.powi(2)).sum();
     let mass = masses(a).zip(masses(b)).map(|(a, b)| log_ratio(a, b)).fold(0.0, f64::max);
     let distance = (goal.powi(2) + duration.powi(2) + joints + mass.powi(2)).sqrt();
     distance.is_finite().then_some(distance)
@@ -264,6 +269,14 @@ fn rotation_vector(scenario: &file::Scenario) -> Option<Vector3<f64>> {
     let (axis, angle_deg) = scenario.slew_axis_and_angle_deg()?;
     let axis = Vector3::from(axis).try_normalize(f64::MIN_POSITIVE)?;
     Some(axis * angle_deg.to_radians())
+}
+
+/// The lengths of the ways of the joints that slide, m; 1 for none.
+fn sliding_ranges_m(scenario: &file::Scenario) -> Vec<f64> {
+    let joints = system(scenario).map_or_else(Vec::new, file::System::joints);
+    let sliding = joints.into_iter().filter(|joint| joint.kind == JointKind::Prismatic);
+    let range_m = |joint: file::JointRow| joint.max.zip(joint.min).map(|(max, min)| max - min);
+    sliding.map(|joint| range_m(joint).filter(|range_m| *range_m > 0.0).unwrap_or(1.0)).collect()
 }
 
 /// Of the base, the payload and every link or body.

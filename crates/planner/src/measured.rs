@@ -10,9 +10,9 @@ use crate::scaling::Scaling;
 pub struct Measured<'a> {
     /// Attitude of the base, body → inertial.
     pub attitude: Quaternion<f64>,
-    /// Joint angles (j), rad.
+    /// Joint angles (j), rad; of joints that slide travels, m.
     pub joint_angles_rad: &'a [f64],
-    /// Joint rates (j), rad/s.
+    /// Joint rates (j), rad/s; m/s.
     pub joint_rates_rad_s: &'a [f64],
 }
 
@@ -25,8 +25,8 @@ impl Measured<'_> {
             attitude: self.attitude,
             velocity: Vector3::zeros(),
             angular_rate: Vector3::zeros(),
-            joint_angles: self.joint_angles_rad.to_vec(),
-            joint_rates: self.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            joint_angles: scaling.joints_measured(self.joint_angles_rad, 1.0),
+            joint_rates: scaling.joints_measured(self.joint_rates_rad_s, time_s),
         }
     }
 }

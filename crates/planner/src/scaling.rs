@@ -60,11 +60,13 @@ impl WaypointWeights {
 }
 
 /// What a maneuver is measured by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scaling {
     pub(crate) units: Units,
     /// So much of the objective counts as one.
     pub(crate) objective: f64,
+    /// The unit of each joint's coordinate, rad or m.
+    pub(crate) joints: Vec<f64>,
 }
 
 impl Scaling {
@@ -74,7 +76,7 @@ impl Scaling {
     /// [`ModelError::Overflow`] when masses or lengths are beyond all measure.
     pub(crate) fn applied(scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
         if scenario.solver().is_paper() {
-            return Ok((scenario.clone(), Self { units: Units::SI, objective: 1.0 }));
+            return Ok((scenario.clone(), Self::of(scenario, Units::SI, 1.0)));
         }
         let units = Units {
             length_m: scenario.system().model.size_m(),
@@ -93,7 +95,13 @@ impl Scaling {
         };
         // A weight of zero says nothing of a measure.
         let objective = if objective > 0.0 { objective } else { 1.0 };
-        Self { units, objective }.measured(scenario)
+        Self::of(scenario, units, objective).measured(scenario)
+    }
+
+    fn of(scenario: &Scenario, units: Units, objective: f64) -> Self {
+        let kinds = scenario.system().model.joint_kinds();
+        let joints = kinds.into_iter().map(|kind| units.of_joint(kind)).collect();
+        Self { units, objective, joints }
     }
 
     /// The scenario measured anew where what was found misses a hard end because it costs far more than was
@@ -124,7 +132,7 @@ impl Scaling {
             return Ok(None);
         }
         let objective = self.objective * solution.objective;
-        Ok(Some(Self { objective, ..*self }.measured(scenario)?))
+        Ok(Some(Self { objective, ..self.clone() }.measured(scenario)?))
     }
 
     /// The scenario in these measures.
@@ -144,7 +152,8 @@ impl Scaling {
             position: measured.position * length_m,
             velocity: measured.velocity * (length_m / time_s),
             angular_rate: measured.angular_rate / time_s,
-            joint_rates: measured.joint_rates.iter().map(|rate| rate / time_s).collect(),
+            joint_angles: self.of_joints(&measured.joint_angles, 1.0),
+            joint_rates: self.of_joints(&measured.joint_rates, time_s),
             ..measured
         }
     }
@@ -156,12 +165,22 @@ impl Scaling {
 
     /// Joint accelerations in SI units.
     pub(crate) fn accelerations(&self, measured: &[f64]) -> Vec<f64> {
-        measured.iter().map(|acceleration| acceleration / self.units.time_s.powi(2)).collect()
+        self.of_joints(measured, self.units.time_s.powi(2))
+    }
+
+    /// Joint coordinates over a time in SI units.
+    fn of_joints(&self, measured: &[f64], time: f64) -> Vec<f64> {
+        measured.iter().zip(&self.joints).map(|(value, unit)| value * unit / time).collect()
+    }
+
+    /// Joint coordinates of SI units over a time, in these.
+    pub(crate) fn joints_measured(&self, values: &[f64], time: f64) -> Vec<f64> {
+        values.iter().zip(&self.joints).map(|(value, unit)| value * time / unit).collect()
     }
 
     /// Joint jerks in SI units.
     pub(crate) fn jerks(&self, measured: &[f64]) -> Vec<f64> {
-        measured.iter().map(|jerk| jerk / self.units.time_s.powi(3)).collect()
+        self.of_joints(measured, self.units.time_s.powi(3))
     }
 
     /// Momenta of wheels in SI units.
@@ -192,19 +211,17 @@ impl Scaling {
             position_m: node.position_m.map(|position| position / length_m),
             velocity_m_s: node.velocity_m_s.map(|velocity| velocity * (time_s / length_m)),
             angular_rate_rad_s: node.angular_rate_rad_s.map(|rate| rate * time_s),
-            joint_rates_rad_s: node.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            joint_angles_rad: self.joints_measured(&node.joint_angles_rad, 1.0),
+            joint_rates_rad_s: self.joints_measured(&node.joint_rates_rad_s, time_s),
             wheel_momenta_n_m_s: of_wheels(&node.wheel_momenta_n_m_s, torque_n_m * time_s),
             ..node.clone()
         });
-        let intervals = motion.intervals().iter().map(|interval| {
-            let accelerations = interval.joint_accelerations_rad_s2.iter();
-            let jerks = interval.joint_jerks_rad_s3.iter();
-            ControlInterval {
-                joint_accelerations_rad_s2: accelerations.map(|u| u * time_s.powi(2)).collect(),
-                joint_jerks_rad_s3: jerks.map(|jerk| jerk * time_s.powi(3)).collect(),
-                wheel_torques_n_m: of_wheels(&interval.wheel_torques_n_m, torque_n_m),
-                ..interval.clone()
-            }
+        let intervals = motion.intervals().iter().map(|interval| ControlInterval {
+            joint_accelerations_rad_s2: self
+                .joints_measured(&interval.joint_accelerations_rad_s2, time_s.powi(2)),
+            joint_jerks_rad_s3: self.joints_measured(&interval.joint_jerks_rad_s3, time_s.powi(3)),
+            wheel_torques_n_m: of_wheels(&interval.wheel_torques_n_m, torque_n_m),
+            ..interval.clone()
         });
         Trajectory::new(nodes.collect(), intervals.collect())
             .expect("as many of each as there were")

@@ -45,9 +45,8 @@ fn alone(
     let start_s = horizon.duration_s * leg.start;
     scenario.varied(|file| {
         file.initial.attitude = Some(start.state().attitude.normalized().to_array());
-        file.initial.joint_angles_deg =
-            start.joint_angles_rad.iter().map(|angle| angle.to_degrees()).collect();
-        file.initial.joint_rates_deg_s = None;
+        let kinds = scenario.system().model.joint_kinds();
+        file.initial.set_resting_joints(&kinds, &start.joint_angles_rad);
         file.initial.angular_rate_deg_s = None;
         file.maneuver = file::Maneuver {
             kind: ManeuverType::Slew,
@@ -59,7 +58,7 @@ fn alone(
         file.horizon.duration_s = file::Duration::Given(horizon.time_s(steps));
         file.horizon.steps = steps as f64;
         if let (false, Some(end)) = (is_last, &mut file.end) {
-            end.joint_angles_deg = None;
+            end.free_joints();
         }
         for table in file.pointing.iter_mut().filter_map(|cone| cone.direction_table.as_mut()) {
             table.t_s.iter_mut().for_each(|time_s| *time_s -= start_s);

@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
+use righting_scenario::file::JointKind;
 use righting_test_support::{shipped, solves, varied};
 
 fn small(name: &str) -> Scenario {
@@ -13,7 +14,8 @@ fn small(name: &str) -> Scenario {
 
 fn csv(plan: &Planned) -> Vec<u8> {
     let mut bytes = Vec::new();
-    plan.trajectory.print_csv(&mut bytes).unwrap();
+    let turning = vec![JointKind::Revolute; plan.trajectory.joints()];
+    plan.trajectory.print_csv(&turning, &mut bytes).unwrap();
     bytes
 }
 

@@ -26,6 +26,10 @@ impl Shelf {
         Self { folder: tempfile::tempdir().unwrap(), scenario, trajectory, solution }
     }
 
+    fn kinds(&self) -> Vec<file::JointKind> {
+        self.scenario.system().model.joint_kinds()
+    }
+
     fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -37,7 +41,7 @@ impl Shelf {
         let mut solution = self.solution.clone();
         change(&mut solution.scenario);
         solution.write_json(&folder.join(SOLUTION_FILE)).unwrap();
-        self.trajectory.write_csv(&folder.join(TRAJECTORY_FILE)).unwrap();
+        self.trajectory.write_csv(&self.kinds(), &folder.join(TRAJECTORY_FILE)).unwrap();
     }
 
     /// Name and distance of the entry chosen for a variant of the scenario.

@@ -1,5 +1,6 @@
 //! The numbers that sum a plan up, as pages show them.
 
+use righting_results::solution::Terminal;
 use righting_results::{Check, Sense, Solution, Trajectory};
 use righting_scenario::file::ManeuverType;
 use serde::Serialize;
@@ -26,10 +27,13 @@ pub(crate) struct UsedLimit {
 }
 
 /// The checks of the plan's own limits; of those made at and between the nodes, the latter.
-const LIMITS: [&str; 6] = [
+const LIMITS: [&str; 9] = [
     "joint angle between nodes",
+    "joint travel between nodes",
     "joint rate between nodes",
+    "joint speed between nodes",
     "joint acceleration",
+    "acceleration of sliding joint",
     "clearance from body between nodes",
     "clearance between links between nodes",
     "pointing between nodes",
@@ -55,11 +59,7 @@ pub(crate) fn facts(solution: &Solution, trajectory: &Trajectory) -> Vec<Fact> {
     let planned = timing.trace + timing.guess + timing.solve;
     let total_power = short(trajectory.peak_power_w());
     facts.extend([
-        fact(
-            "Joints at the end",
-            format!("{} °/s", short(terminal.joint_rate_deg_s)),
-            "norm of the rates".to_owned(),
-        ),
+        fact("Joints at the end", joints_at_end(terminal), "norm of the rates".to_owned()),
         fact(
             "Objective",
             precise(solution.objective),
@@ -100,6 +100,15 @@ fn detumble_facts(solution: &Solution, trajectory: &Trajectory, rate: String) ->
             ),
         },
     ]
+}
+
+/// How fast the joints still are, such as "0.01 °/s, 0.002 m/s".
+pub(crate) fn joints_at_end(terminal: &Terminal) -> String {
+    let turning = format!("{} °/s", short(terminal.joint_rate_deg_s));
+    match terminal.joint_speed_m_s {
+        Some(speed_m_s) => format!("{turning}, {} m/s", short(speed_m_s)),
+        None => turning,
+    }
 }
 
 /// Six significant digits.

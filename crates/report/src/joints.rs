@@ -2,7 +2,7 @@
 
 use righting_results::{Solution, Trajectory};
 use righting_scenario::Names;
-use righting_scenario::file::{JointRow, Scenario, SystemReference};
+use righting_scenario::file::{JointKind, JointRow, JointWords, Scenario, SystemReference};
 
 use crate::figure::{Figure, heading};
 use crate::number::drawn;
@@ -53,27 +53,36 @@ fn joint_panels(
     let angles = nodes.clone().map(|n| n.joint_angles_rad[joint]).collect();
     let rates = nodes.map(|n| n.joint_rates_rad_s[joint]).collect();
     let either_way = |bound: Option<f64>| [bound.map(|b| -b), bound];
-    let angle_limits =
-        [row.and_then(|row| row.angle_min_deg), row.and_then(|row| row.angle_max_deg)];
-    let rate_limits = either_way(row.and_then(|row| row.rate_max_deg_s));
-    let acceleration_limits = either_way(row.and_then(|row| row.acceleration_max_deg_s2));
+    let limits = [row.and_then(|row| row.min), row.and_then(|row| row.max)];
+    let rate_limits = either_way(row.and_then(|row| row.rate_max));
+    let acceleration_limits = either_way(row.and_then(|row| row.acceleration_max));
+    let kind = row.map_or(JointKind::Revolute, |row| row.kind);
+    let words = JointWords::of(kind);
+    let (coordinate, rate) = match kind {
+        JointKind::Revolute => ("angle", "rate"),
+        JointKind::Prismatic => ("travel", "speed"),
+    };
+    let unit = words.unit;
+    // A metre of travel counts like so many degrees of a turn where a panel has a least span.
+    let spans = LEAST_SPANS.map(|span| words.from_si(span.to_radians()));
     let name = capitalized(name);
     let mut panels = vec![
-        panel(format!("{name} angle [deg]"), angles, angle_limits, LEAST_SPANS[0], false),
-        panel(format!("{name} rate [deg/s]"), rates, rate_limits, LEAST_SPANS[1], false),
+        panel(format!("{name} {coordinate} [{unit}]"), words, angles, limits, spans[0], false),
+        panel(format!("{name} {rate} [{unit}/s]"), words, rates, rate_limits, spans[1], false),
         panel(
-            format!("{name} acceleration [deg/s²]"),
+            format!("{name} acceleration [{unit}/s²]"),
+            words,
             accelerations(trajectory, joint),
             acceleration_limits,
-            LEAST_SPANS[2],
+            spans[2],
             !trajectory.has_jerks(),
         ),
     ];
     if trajectory.has_jerks() {
         let jerks = trajectory.intervals().iter().map(|i| i.joint_jerk_rad_s3(joint)).collect();
-        let limits = either_way(row.and_then(|row| row.jerk_max_deg_s3));
-        let heading = format!("{name} jerk [deg/s³]");
-        panels.push(panel(heading, jerks, limits, LEAST_SPANS[3], true));
+        let limits = either_way(row.and_then(|row| row.jerk_max));
+        let heading = format!("{name} jerk [{unit}/s³]");
+        panels.push(panel(heading, words, jerks, limits, spans[3], true));
     }
     panels
 }
@@ -89,16 +98,17 @@ fn capitalized(name: &str) -> String {
     name.strip_prefix("joint ").map_or_else(|| name.to_owned(), |number| format!("Joint {number}"))
 }
 
-/// A panel of one curve, given in radians, between limits in degrees.
+/// A panel of one curve, given in SI units, between limits in those of the file.
 fn panel(
     heading: String,
-    values_rad: Vec<f64>,
-    limits_deg: [Option<f64>; 2],
+    words: &JointWords,
+    values: Vec<f64>,
+    limits: [Option<f64>; 2],
     least_span: f64,
     hold: bool,
 ) -> Panel {
-    let values: Vec<f64> = values_rad.into_iter().map(f64::to_degrees).collect();
-    let note = match limits_deg {
+    let values: Vec<f64> = values.into_iter().map(|value| words.from_si(value)).collect();
+    let note = match limits {
         [Some(low), Some(high)] if low == -high => {
             let peak = values.iter().fold(0.0, |peak: f64, v| peak.max(v.abs()));
             format!("peak {} of {}", drawn(peak), drawn(high))
@@ -108,7 +118,7 @@ fn panel(
     let is_short = heading.chars().count() + note.chars().count() <= HEAD_CHARACTERS;
     let note = if is_short { note } else { String::new() };
     let limit = |value| Rule { kind: RuleKind::Limit, value };
-    let rules = limits_deg.into_iter().flatten().map(limit).collect();
+    let rules = limits.into_iter().flatten().map(limit).collect();
     let curves = vec![Curve { hold, ..Curve::plain(style::Z, values) }];
     Panel { heading, note, curves, rules, least_span, ..Panel::default() }
 }

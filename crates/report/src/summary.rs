@@ -7,6 +7,7 @@ use righting_results::{Check, Sense, Solution, Status};
 use righting_scenario::file::{Formulation, ManeuverType, SystemReference};
 
 use crate::asked;
+use crate::facts::joints_at_end;
 use crate::number::short;
 use crate::table::aligned;
 
@@ -101,10 +102,10 @@ pub fn status_phrase(status: Status) -> &'static str {
 fn reached(solution: &Solution) -> String {
     let terminal = &solution.terminal;
     let rate = short(terminal.angular_rate_deg_s);
-    let joints = short(terminal.joint_rate_deg_s);
+    let joints = joints_at_end(terminal);
     match solution.scenario.maneuver.kind {
         ManeuverType::Slew => format!(
-            "attitude error {} ({}°), base {rate} °/s, joints {joints} °/s",
+            "attitude error {} ({}°), base {rate} °/s, joints {joints}",
             short(terminal.attitude_error),
             short(terminal.attitude_error_deg),
         ),
@@ -124,7 +125,7 @@ fn reached(solution: &Solution) -> String {
                 .bound_deg_s
                 .map(|bound| format!(" (at least {} °/s with the arm at rest)", short(bound)))
                 .unwrap_or_default();
-            format!("base {rate} °/s{reduction}{bound}, joints {joints} °/s")
+            format!("base {rate} °/s{reduction}{bound}, joints {joints}")
         }
     }
 }

@@ -195,9 +195,12 @@ pub struct Terminal {
     /// Norm of the base's angular rate, deg/s.
     #[serde(with = "FiniteOrNull")]
     pub angular_rate_deg_s: f64,
-    /// Norm of the joint rates, all joints together, deg/s.
+    /// Norm of the joint rates, all joints that turn together, deg/s.
     #[serde(with = "FiniteOrNull")]
     pub joint_rate_deg_s: f64,
+    /// Norm of the speeds of all joints that slide together, m/s; only where there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_speed_m_s: Option<f64>,
 }
 
 /// What was reached at a waypoint: from its arrival to its departure the worst of each, at the nodes.
@@ -216,9 +219,12 @@ pub struct WaypointRecord {
     /// Norm of the base's angular rate, deg/s.
     #[serde(with = "FiniteOrNull")]
     pub angular_rate_deg_s: f64,
-    /// Norm of the joint rates, all joints together, deg/s.
+    /// Norm of the joint rates, all joints that turn together, deg/s.
     #[serde(with = "FiniteOrNull")]
     pub joint_rate_deg_s: f64,
+    /// Norm of the speeds of all joints that slide together, m/s; only where there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_speed_m_s: Option<f64>,
 }
 
 /// Wall-clock times, s.

@@ -8,7 +8,8 @@ use righting_scenario::error::ShapeError;
 /// The free-floating system at one instant, with the power its joints take.
 ///
 /// Position and velocity are those of the base's body-frame origin in inertial axes; the attitude
-/// quaternion turns body vectors into inertial ones; the angular rate is in body axes.
+/// quaternion turns body vectors into inertial ones; the angular rate is in body axes. Of a joint that slides
+/// angles are travels in m, torques forces in N, and so on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// Time since the start.

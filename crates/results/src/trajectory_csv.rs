@@ -1,4 +1,7 @@
 //! `trajectory.csv`: one row a node, 17 significant digits, read back bit for bit.
+//!
+//! The columns of a joint have the units of its coordinate in their names: `q3_rad`, `tau3_n_m`, or where
+//! joint 3 slides `q3_m`, `f3_n`.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -6,6 +9,7 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
 use righting_scenario::error::{Error, Mismatch};
+use righting_scenario::file::JointKind;
 use righting_scenario::file_io;
 use righting_scenario::json::shown_text;
 
@@ -18,46 +22,78 @@ const BASE_COLUMNS: [&str; 14] = [
 ];
 
 /// The first of the columns that a trajectory with jerks has beside those of any other.
-const FIRST_JERK: &str = "j1_rad_s3";
+const FIRST_JERKS: [&str; 2] = ["j1_rad_s3", "j1_m_s3"];
 /// How the columns of the wheels' momenta begin.
 const WHEEL_MOMENTUM: &str = "hw";
 
-/// The header of a trajectory with `joints` joints; `with_jerks` adds the columns of their jerks, and then come
+/// The header of a trajectory of joints of these kinds; `with_jerks` adds the columns of their jerks, and then come
 /// momenta and torques of the `wheels`.
-pub fn header(joints: usize, with_jerks: bool, wheels: usize) -> Vec<String> {
+pub fn header(kinds: &[JointKind], with_jerks: bool, wheels: usize) -> Vec<String> {
     let per = |count: usize, prefix: &'static str, unit: &'static str| {
         (1..=count).map(move |i| format!("{prefix}{i}_{unit}"))
     };
-    let per_joint = |prefix, unit| per(joints, prefix, unit);
+    let joints = kinds.len();
+    let per_joint = |of: fn(JointKind, usize) -> String| {
+        kinds.iter().enumerate().map(move |(joint, &kind)| of(kind, joint + 1))
+    };
+    let names = [
+        per_joint(|kind, i| format!("q{i}_{}", unit(kind))),
+        per_joint(|kind, i| format!("dq{i}_{}_s", unit(kind))),
+        per_joint(|kind, i| format!("u{i}_{}_s2", unit(kind))),
+        per_joint(|kind, i| match kind {
+            JointKind::Revolute => format!("tau{i}_n_m"),
+            JointKind::Prismatic => format!("f{i}_n"),
+        }),
+    ];
     BASE_COLUMNS
         .iter()
         .map(|&name| name.to_owned())
-        .chain(per_joint("q", "rad"))
-        .chain(per_joint("dq", "rad_s"))
-        .chain(per_joint("u", "rad_s2"))
-        .chain(per_joint("tau", "n_m"))
+        .chain(names.into_iter().flatten())
         .chain(std::iter::once("power_w".to_owned()))
-        .chain(per_joint("j", "rad_s3").take(if with_jerks { joints } else { 0 }))
+        .chain(per_joint(|kind, i| format!("j{i}_{}_s3", unit(kind))).take(if with_jerks {
+            joints
+        } else {
+            0
+        }))
         .chain(per(wheels, WHEEL_MOMENTUM, "n_m_s"))
         .chain(per(wheels, "tauw", "n_m"))
         .collect()
 }
 
+/// Unit of a joint's coordinate in names.
+fn unit(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "rad",
+        JointKind::Prismatic => "m",
+    }
+}
+
+/// The kinds of joints that the names of their first columns say.
+fn kinds(head: &StringRecord, joints: usize) -> Vec<JointKind> {
+    let first = head.iter().skip(BASE_COLUMNS.len()).take(joints);
+    let kind = |name: &str| match name.ends_with("_m") {
+        true => JointKind::Prismatic,
+        false => JointKind::Revolute,
+    };
+    first.map(kind).collect()
+}
+
 impl Trajectory {
-    /// Writes the table to `file`, whole or not at all: a temporary file beside it is renamed.
+    /// Writes the table of joints of these kinds, one each, to `file`, whole or not at all: a temporary file
+    /// beside it is renamed.
     ///
     /// # Errors
     /// [`Error::Write`] if the folder is missing, read-only or full.
-    pub fn write_csv(&self, file: &Path) -> Result<(), Error> {
-        file_io::replace(file, |writer| self.print_csv(writer))
+    pub fn write_csv(&self, kinds: &[JointKind], file: &Path) -> Result<(), Error> {
+        file_io::replace(file, |writer| self.print_csv(kinds, writer))
     }
 
-    /// Prints the table: the u, tau, j and tauw cells of the last row are empty.
+    /// Prints the table: the cells of accelerations, torques and jerks in the last row are empty.
     ///
     /// # Errors
     /// Those of the writer.
-    pub fn print_csv(&self, writer: &mut dyn Write) -> io::Result<()> {
-        let names = header(self.joints(), self.has_jerks(), self.wheels());
+    pub fn print_csv(&self, kinds: &[JointKind], writer: &mut dyn Write) -> io::Result<()> {
+        let names = header(kinds, self.has_jerks(), self.wheels());
         writeln!(writer, "{}", names.join(","))?;
         for (k, node) in self.nodes().iter().enumerate() {
             write!(writer, "{:.16e}", node.time_s)?;
@@ -127,12 +163,12 @@ fn parse(file: &Path, rows: &[StringRecord]) -> Result<Trajectory, Error> {
     let Some((head, body)) = rows.split_first() else {
         return Err(wrong(1, &"an empty file", &"a header and rows"));
     };
-    let has_jerks = head.iter().any(|name| name == FIRST_JERK);
+    let has_jerks = head.iter().any(|name| FIRST_JERKS.contains(&name));
     let columns_a_joint = if has_jerks { 5 } else { 4 };
     let wheels = head.iter().filter(|name| name.starts_with(WHEEL_MOMENTUM)).count();
     let others = BASE_COLUMNS.len() + 1 + 2 * wheels;
     let joints = head.len().saturating_sub(others) / columns_a_joint;
-    let names = header(joints, has_jerks, wheels);
+    let names = header(&kinds(head, joints), has_jerks, wheels);
     if joints == 0 || head.len() != names.len() {
         let of_wheels = if wheels > 0 { ", 2 for each wheel" } else { "" };
         let expected =

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::Error;
+use righting_scenario::file::JointKind;
 
 /// A trajectory of awkward numbers: every bit pattern of a finite double is fair.
 fn awkward(joints: usize, steps: usize, with_jerks: bool, wheels: usize) -> Trajectory {
@@ -43,9 +44,13 @@ fn awkward(joints: usize, steps: usize, with_jerks: bool, wheels: usize) -> Traj
     Trajectory::new(nodes, intervals).unwrap()
 }
 
+fn turning(joints: usize) -> Vec<JointKind> {
+    vec![JointKind::Revolute; joints]
+}
+
 fn bits(trajectory: &Trajectory) -> Vec<u64> {
     let mut text = Vec::new();
-    trajectory.print_csv(&mut text).unwrap();
+    trajectory.print_csv(&turning(trajectory.joints()), &mut text).unwrap();
     let nodes = trajectory.nodes().iter().flat_map(|node| {
         let arrays = [&node.position_m[..], &node.attitude, &node.velocity_m_s];
         let rest = [&node.angular_rate_rad_s[..], &node.joint_angles_rad, &node.joint_rates_rad_s];
@@ -69,7 +74,7 @@ fn bits(trajectory: &Trajectory) -> Vec<u64> {
 #[test]
 fn the_header_is_the_contract() {
     let mut text = Vec::new();
-    awkward(2, 1, false, 0).print_csv(&mut text).unwrap();
+    awkward(2, 1, false, 0).print_csv(&turning(2), &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
@@ -87,9 +92,28 @@ fn the_header_is_the_contract() {
 }
 
 #[test]
+fn joints_that_slide_have_metres_in_their_names() {
+    let mut text = Vec::new();
+    let kinds = [JointKind::Prismatic, JointKind::Revolute, JointKind::Prismatic];
+    let trajectory = awkward(3, 1, true, 0);
+    trajectory.print_csv(&kinds, &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let names = "q1_m,q2_rad,q3_m,dq1_m_s,dq2_rad_s,dq3_m_s,u1_m_s2,u2_rad_s2,u3_m_s2,f1_n,tau2_n_m,f3_n,\
+                 power_w,j1_m_s3,j2_rad_s3,j3_m_s3\n";
+    assert!(text.split_once("wz_rad_s,").unwrap().1.starts_with(names), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("trajectory.csv");
+    trajectory.write_csv(&kinds, &file).unwrap();
+    assert_eq!(bits(&Trajectory::read_csv(&file).unwrap()), bits(&trajectory));
+    // All columns of a joint have one unit.
+    let mixed = refusal(&text.replace("dq1_m_s", "dq1_rad_s"));
+    assert!(mixed.contains("found column `dq1_rad_s`, expected `dq1_m_s`"), "{mixed}");
+}
+
+#[test]
 fn jerks_stand_after_all_other_columns() {
     let mut text = Vec::new();
-    awkward(2, 1, true, 0).print_csv(&mut text).unwrap();
+    awkward(2, 1, true, 0).print_csv(&turning(2), &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].ends_with(",tau2_n_m,power_w,j1_rad_s3,j2_rad_s3"), "{}", lines[0]);
@@ -103,7 +127,7 @@ fn jerks_stand_after_all_other_columns() {
 #[test]
 fn wheels_stand_last() {
     let mut text = Vec::new();
-    awkward(1, 1, true, 2).print_csv(&mut text).unwrap();
+    awkward(1, 1, true, 2).print_csv(&turning(1), &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     let expected = ",power_w,j1_rad_s3,hw1_n_m_s,hw2_n_m_s,tauw1_n_m,tauw2_n_m";
@@ -120,7 +144,7 @@ fn a_table_is_read_back_bit_for_bit() {
         for (with_jerks, wheels) in [(false, 0), (true, 0), (false, 3), (true, 4)] {
             let file = folder.path().join("trajectory.csv");
             let trajectory = awkward(joints, steps, with_jerks, wheels);
-            trajectory.write_csv(&file).unwrap();
+            trajectory.write_csv(&turning(joints), &file).unwrap();
             let read = Trajectory::read_csv(&file).unwrap();
             assert_eq!(bits(&read), bits(&trajectory));
         }
@@ -140,7 +164,7 @@ fn refusal(text: &str) -> String {
 #[test]
 fn damaged_tables_are_refused_with_the_place() {
     let mut good = Vec::new();
-    awkward(1, 2, false, 0).print_csv(&mut good).unwrap();
+    awkward(1, 2, false, 0).print_csv(&turning(1), &mut good).unwrap();
     let good = String::from_utf8(good).unwrap();
     let rows: Vec<&str> = good.lines().collect();
 
@@ -186,6 +210,6 @@ fn files_that_cannot_be_opened_or_written_are_named() {
     assert!(matches!(Trajectory::read_csv(&missing), Err(Error::Read { .. })));
     assert!(matches!(Trajectory::read_csv(folder.path()), Err(Error::Directory { .. })));
     let nowhere = Path::new("no-such-folder/trajectory.csv");
-    let message = awkward(1, 1, false, 0).write_csv(nowhere).unwrap_err().to_string();
+    let message = awkward(1, 1, false, 0).write_csv(&turning(1), nowhere).unwrap_err().to_string();
     assert_eq!(message, "no-such-folder/trajectory.csv: cannot be written: no such file");
 }

@@ -1,9 +1,12 @@
 //! The posture in which an arm shall end.
 
+use righting_multibody::JointKind;
+
 use crate::collision::CollisionModel;
 use crate::error::Error;
+use crate::file::{self, JointWords};
 use crate::halton::Halton;
-use crate::initial::{Initial, joint_angle, require_one_a_joint};
+use crate::initial::{Initial, checked, joint_coordinate};
 use crate::json::{Location, Number};
 use crate::rounding::COMPUTED;
 use crate::system_description::SystemDescription;
@@ -11,21 +14,23 @@ use crate::system_description::SystemDescription;
 /// Postures of the free joints that are looked at to tell which distances the given ones decide.
 const POSTURES: usize = 4;
 
-/// Checks the joint angles of an end that was read from `place`: one a joint, rad; none where the joint is
-/// free.
-pub(crate) fn end_angles(
-    angles_deg: Option<&[Option<f64>]>,
+/// Checks the joint coordinates of an end that was read from `place`: one a joint, rad or m; none where the
+/// joint is free.
+pub(crate) fn end_coordinates(
+    end: Option<&file::End>,
     system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<Option<f64>>, Error> {
-    let Some(angles_deg) = angles_deg else { return Ok(vec![None; system.joint_count()]) };
-    require_one_a_joint(angles_deg, system, place)?;
-    let given = angles_deg.iter().enumerate();
-    given
-        .map(|(joint, angle_deg)| {
-            angle_deg.map(|angle_deg| joint_angle(angle_deg, joint, system, place)).transpose()
-        })
-        .collect()
+    let Some(end) = end else { return Ok(vec![None; system.joint_count()]) };
+    let kinds = system.model.joint_kinds();
+    let free = |kind| file::of_kind(&kinds, kind, &vec![None; kinds.len()]);
+    let given = [
+        &end.joint_angles_deg.clone().unwrap_or_else(|| free(JointKind::Revolute))[..],
+        &end.joint_travels_m.clone().unwrap_or_else(|| free(JointKind::Prismatic)),
+    ];
+    checked(given, JointWords::coordinates, system, place, |value, joint, place| {
+        value.map(|value| joint_coordinate(value, joint, system, place)).transpose()
+    })
 }
 
 /// Refuses an end in which something is too close whatever the free joints do.

@@ -8,7 +8,9 @@ mod bodies;
 mod drive;
 mod environment;
 mod horizon;
+mod initial_joints;
 mod joint_row;
+mod joint_words;
 mod link;
 mod maneuver;
 mod pointing;
@@ -30,6 +32,7 @@ pub use drive::Drive;
 pub use environment::{Environment, GravityGradient, OrbitalElements};
 pub use horizon::{Duration, DurationRange, Horizon};
 pub use joint_row::{JointPlace, JointRow};
+pub use joint_words::{JointWords, in_joint_order, of_kind};
 pub use link::{DhConvention, InertialFrame, Link};
 pub use maneuver::{Maneuver, ManeuverType};
 pub use pointing::{DirectionTable, Pointing};
@@ -41,6 +44,8 @@ pub use system::{Base, Mount, Payload, System};
 pub use system_options::SystemOptions;
 pub use waypoint::Waypoint;
 pub use wheel::Wheel;
+
+pub use righting_multibody::JointKind;
 
 /// A maneuver to plan: a system, where it starts, what it shall do and how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -102,11 +107,17 @@ pub enum SystemReference {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `joint_angles_deg`")]
 pub struct Initial {
-    /// Joint angles, one a joint, deg.
+    /// Joint angles, one a joint that turns, deg.
     pub joint_angles_deg: Vec<f64>,
-    /// Joint rates, one a joint, deg/s; zero by default.
+    /// Joint rates, one a joint that turns, deg/s; zero by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_rates_deg_s: Option<Vec<f64>>,
+    /// Travels of the joints that slide, one each, m; needed where there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joint_travels_m: Vec<f64>,
+    /// Speeds of the joints that slide, one each, m/s; zero by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_speeds_m_s: Option<Vec<f64>>,
     /// Angular rate of the base in body axes, deg/s; zero by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angular_rate_deg_s: Option<[f64; 3]>,
@@ -125,10 +136,13 @@ pub struct End {
     /// and the guess is not the constant one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hard: Option<bool>,
-    /// The angle in which each joint ends, deg; null where it is free. The given ones are met exactly,
-    /// whatever `hard` and the weights say. All are free by default.
+    /// The angle in which each joint that turns ends, deg; null where it is free. The given ones are met
+    /// exactly, whatever `hard` and the weights say. All are free by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_angles_deg: Option<Vec<Option<f64>>>,
+    /// The same of the joints that slide, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_travels_m: Option<Vec<Option<f64>>>,
     /// The momentum that each wheel stores in the end, N m s; null where it is free. The given ones are met exactly.
     /// All are free by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -139,7 +153,8 @@ pub struct End {
 /// squared joint accelerations, divided by 0.05 s; `time` multiplies the duration where that is free; each
 /// other one multiplies the square of its quantity at the end. A slew's defaults are control 0.01, attitude
 /// 1000, angular_rate 100, joint_rate 100; a detumble's control 0.01, angular_rate 100, joint_rate
-/// 1000; the rest 0.
+/// 1000; the rest 0. A joint that slides counts by its travel divided by the system's size: the length of the
+/// arm stretched out, or the farthest that a joint or a center of mass can be from the origin of the body frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object of weights")]
 pub struct Weights {

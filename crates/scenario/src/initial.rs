@@ -1,15 +1,15 @@
 //! State at the start of a maneuver.
 
 use nalgebra::Vector3;
-use righting_multibody::{Quaternion, State};
+use righting_multibody::{JointKind, Quaternion, State};
 
 use crate::error::Error;
-use crate::file;
+use crate::file::{self, JointWords};
+use crate::joint_limits::coordinates;
 use crate::json::{Bounds, Location, Number};
 use crate::system_description::{SystemDescription, unit_quaternion};
 
 const ANGULAR_RATE_DEG_S: Bounds = Bounds::Between(-3.6e6, 3.6e6);
-const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
 
 /// State at the start: the base's body frame is at the origin, the system's center of mass at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,9 +20,9 @@ pub struct Initial {
     pub velocity_m_s: Vector3<f64>,
     /// Angular rate of the base, body axes, rad/s.
     pub angular_rate_rad_s: Vector3<f64>,
-    /// Joint angles, one a joint, rad; within the limits.
+    /// Joint angles, one a joint, rad, and of joints that slide travels, m; within the limits.
     pub joint_angles_rad: Vec<f64>,
-    /// Joint rates, one a joint, rad/s; within the limits.
+    /// Joint rates, one a joint, rad/s or m/s; within the limits.
     pub joint_rates_rad_s: Vec<f64>,
     /// Angular momentum about the system's center of mass h₀, inertial axes, N m s; it never changes.
     pub angular_momentum_n_m_s: Vector3<f64>,
@@ -43,8 +43,8 @@ impl Initial {
         let angular_rate_deg_s = rate_place
             .all_within(initial.angular_rate_deg_s.unwrap_or_default(), ANGULAR_RATE_DEG_S)?;
         let omega = Vector3::from(angular_rate_deg_s).map(f64::to_radians);
-        let q = joint_angles(initial, system, &place.key("joint_angles_deg"))?;
-        let qdot = joint_rates(initial, system, &place.key("joint_rates_deg_s"))?;
+        let q = joint_coordinates(initial, system, place)?;
+        let qdot = joint_rates(initial, system, place)?;
         let model = &system.model;
         let at_rest = Vector3::zeros();
         Ok(Self {
@@ -71,37 +71,39 @@ impl Initial {
     }
 }
 
-fn joint_angles(
+fn joint_coordinates(
     initial: &file::Initial,
     system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<f64>, Error> {
-    require_one_a_joint(&initial.joint_angles_deg, system, place)?;
-    let given = initial.joint_angles_deg.iter().enumerate();
-    given.map(|(joint, &angle_deg)| joint_angle(angle_deg, joint, system, place)).collect()
+    let given = [&initial.joint_angles_deg[..], &initial.joint_travels_m];
+    checked(given, JointWords::coordinates, system, place, |&value, joint, place| {
+        joint_coordinate(value, joint, system, place)
+    })
 }
 
-/// Checks the angle of a joint, counted from zero, that stands in an array at `place`; rad.
-pub(crate) fn joint_angle(
-    angle_deg: f64,
+/// Checks the coordinate of a joint, counted from zero, that stands at `place`; rad or m.
+pub(crate) fn joint_coordinate(
+    value: f64,
     joint: usize,
     system: &SystemDescription,
     place: &Location,
 ) -> Result<f64, Error> {
     let limits = &system.joint_limits[joint];
-    let place = place.index(joint);
-    let angle_rad = place.within(angle_deg, JOINT_ANGLE_DEG)?.to_radians();
-    if angle_rad < limits.angle_min_rad || angle_rad > limits.angle_max_rad {
-        let low = Number(degrees(limits.angle_min_rad));
-        let high = Number(degrees(limits.angle_max_rad));
+    let words = JointWords::of(limits.kind);
+    let coordinate = words.to_si(place.within(value, coordinates(limits.kind))?);
+    if coordinate < limits.angle_min_rad || coordinate > limits.angle_max_rad {
+        let low = Number(as_written(words, limits.angle_min_rad));
+        let high = Number(as_written(words, limits.angle_max_rad));
         let name = system.names.joint(joint);
-        let allowed = match limits.is_locked() {
-            true => format!("{low}, the angle at which {name} is locked"),
-            false => format!("{low} to {high}, the limits of {name}"),
+        let allowed = match (limits.is_locked(), limits.kind) {
+            (true, JointKind::Revolute) => format!("{low}, the angle at which {name} is locked"),
+            (true, JointKind::Prismatic) => format!("{low}, the travel at which {name} is locked"),
+            (false, _) => format!("{low} to {high}, the limits of {name}"),
         };
-        return Err(place.refuse(Number(angle_deg), allowed));
+        return Err(place.refuse(Number(value), allowed));
     }
-    Ok(angle_rad)
+    Ok(coordinate)
 }
 
 fn joint_rates(
@@ -109,45 +111,63 @@ fn joint_rates(
     system: &SystemDescription,
     place: &Location,
 ) -> Result<Vec<f64>, Error> {
-    let Some(rates_deg_s) = &initial.joint_rates_deg_s else {
-        return Ok(vec![0.0; system.joint_count()]);
-    };
-    require_one_a_joint(rates_deg_s, system, place)?;
-    let checked = rates_deg_s.iter().zip(&system.joint_limits).enumerate();
-    checked
-        .map(|(index, (&rate_deg_s, limits))| {
-            let name = || system.names.joint(index);
-            let rate_rad_s = rate_deg_s.to_radians();
-            if limits.is_locked() && rate_deg_s != 0.0 {
-                let allowed = format!("0: {} is locked", name());
-                return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
-            }
-            if rate_rad_s.is_nan() || rate_rad_s.abs() > limits.rate_max_rad_s {
-                let allowed = format!(
-                    "at most {} in magnitude, the limit of {}",
-                    Number(degrees(limits.rate_max_rad_s)),
-                    name()
-                );
-                return Err(place.index(index).refuse(Number(rate_deg_s), allowed));
-            }
-            Ok(rate_rad_s)
-        })
-        .collect()
+    let kinds = system.model.joint_kinds();
+    let at_rest = |kind| file::of_kind(&kinds, kind, &vec![0.0; kinds.len()]);
+    let angular = initial.joint_rates_deg_s.clone();
+    let linear = initial.joint_speeds_m_s.clone();
+    let given = [
+        &angular.unwrap_or_else(|| at_rest(JointKind::Revolute))[..],
+        &linear.unwrap_or_else(|| at_rest(JointKind::Prismatic)),
+    ];
+    checked(given, JointWords::rates, system, place, |&value, joint, place| {
+        let limits = &system.joint_limits[joint];
+        let words = JointWords::of(limits.kind);
+        let name = || system.names.joint(joint);
+        let rate = words.to_si(value);
+        if limits.is_locked() && value != 0.0 {
+            return Err(place.refuse(Number(value), format!("0: {} is locked", name())));
+        }
+        if rate.is_nan() || rate.abs() > limits.rate_max_rad_s {
+            let most = Number(as_written(words, limits.rate_max_rad_s));
+            let allowed = format!("at most {most} in magnitude, the limit of {}", name());
+            return Err(place.refuse(Number(value), allowed));
+        }
+        Ok(rate)
+    })
 }
 
-pub(crate) fn require_one_a_joint<T>(
-    values: &[T],
+/// Checks the values of the joints that turn and of those that slide, which stand in two fields of the
+/// object at `place`; in the order of the joints' coordinates.
+pub(crate) fn checked<V: Clone, T: Clone>(
+    [turning, sliding]: [&[V]; 2],
+    field: fn(&JointWords) -> &'static str,
     system: &SystemDescription,
     place: &Location,
-) -> Result<(), Error> {
-    if values.len() == system.joint_count() {
-        return Ok(());
-    }
-    let allowed = format!("an array of {}, one a joint", system.joint_count());
-    Err(place.refuse(format!("an array of {}", values.len()), allowed))
+    check: impl Fn(&V, usize, &Location) -> Result<T, Error>,
+) -> Result<Vec<T>, Error> {
+    let kinds = system.model.joint_kinds();
+    let all: Vec<usize> = (0..kinds.len()).collect();
+    let of = |kind: JointKind, values: &[V]| -> Result<Vec<T>, Error> {
+        let joints = file::of_kind(&kinds, kind, &all);
+        let words = JointWords::of(kind);
+        let place = place.key(field(words));
+        if values.len() != joints.len() {
+            let whose = match kinds.contains(&JointKind::Prismatic) {
+                true => format!("one a joint that {}", words.that),
+                false => "one a joint".to_owned(),
+            };
+            let allowed = format!("an array of {}, {whose}", joints.len());
+            return Err(place.refuse(format!("an array of {}", values.len()), allowed));
+        }
+        let listed = values.iter().zip(joints).enumerate();
+        listed.map(|(index, (value, joint))| check(value, joint, &place.index(index))).collect()
+    };
+    let turning = of(JointKind::Revolute, turning)?;
+    let sliding = of(JointKind::Prismatic, sliding)?;
+    Ok(file::in_joint_order(&kinds, &turning, &sliding))
 }
 
-/// Degrees as they stood in the file: without the last digits that the way to radians and back adds.
-fn degrees(radians: f64) -> f64 {
-    (radians.to_degrees() * 1e9).round() / 1e9
+/// A number as it stood in the file: without the last digits that the way to radians and back adds.
+fn as_written(words: &JointWords, value: f64) -> f64 {
+    (words.from_si(value) * 1e9).round() / 1e9
 }

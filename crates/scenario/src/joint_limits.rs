@@ -2,21 +2,38 @@
 
 use std::f64::consts::PI;
 
+use righting_multibody::JointKind;
+
 use crate::error::Error;
 use crate::file;
 use crate::json::{Bounds, Location, Number};
 use crate::load_limits::LOAD;
+use crate::system_description::LENGTH_M;
 
-const JOINT_ANGLE_DEG: Bounds = Bounds::Between(-36_000.0, 36_000.0);
+/// Coordinates that joints may have, deg or m.
+pub(crate) fn coordinates(kind: JointKind) -> Bounds {
+    match kind {
+        JointKind::Revolute => Bounds::Between(-36_000.0, 36_000.0),
+        JointKind::Prismatic => LENGTH_M,
+    }
+}
+
 // Of a clock that runs a hundred times slower, too.
 pub(crate) const RATE_DEG_S: Bounds = Bounds::Above(0.0, 3.6e6);
 const ACCELERATION_DEG_S2: Bounds = Bounds::Above(0.0, 3.6e9);
 const JERK_DEG_S3: Bounds = Bounds::Above(0.0, 3.6e12);
+const SPEED_M_S: Bounds = Bounds::Above(0.0, 1e12);
+const ACCELERATION_M_S2: Bounds = Bounds::Above(0.0, 1e15);
+const JERK_M_S3: Bounds = Bounds::Above(0.0, 1e18);
 
 /// What a joint can do. One whose smallest angle is its largest is locked: it holds that angle,
 /// whatever its rate and acceleration could be.
+///
+/// Of a joint that slides, angles are travels in m and torques forces in N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLimits {
+    /// What the joint's coordinate is.
+    pub kind: JointKind,
     /// Smallest angle, rad; −∞ if there is none.
     pub angle_min_rad: f64,
     /// Largest angle, rad; +∞ if there is none.
@@ -35,56 +52,66 @@ impl JointLimits {
     /// Checks the limits of a joint of the system that was read from `place`.
     pub(crate) fn from_file(row: &file::JointRow, place: &Location) -> Result<Self, Error> {
         let place = row.at(place);
-        let angle = |name: &str, value: Option<f64>, none: f64| match value {
-            Some(value) => place.key(name).within(value, JOINT_ANGLE_DEG),
+        let words = row.words();
+        let slides = row.kind == JointKind::Prismatic;
+        let end = |name: &str, value: Option<f64>, none: f64| match value {
+            Some(value) => place.key(name).within(value, coordinates(row.kind)),
+            None if slides => Err(place.key(name).missing("where the joint's travel ends, m")),
             None => Ok(none),
         };
-        let min_deg = angle("angle_min_deg", row.angle_min_deg, f64::NEG_INFINITY)?;
-        let max_deg = angle("angle_max_deg", row.angle_max_deg, f64::INFINITY)?;
-        if min_deg > max_deg {
-            let allowed = format!("at most angle_max_deg, {}", Number(max_deg));
-            return Err(place.key("angle_min_deg").refuse(Number(min_deg), allowed));
+        let min = end(words.min, row.min, f64::NEG_INFINITY)?;
+        let max = end(words.max, row.max, f64::INFINITY)?;
+        if min > max {
+            let allowed = format!("at most {}, {}", words.max, Number(max));
+            return Err(place.key(words.min).refuse(Number(min), allowed));
         }
         let needed = |name: &str, value: Option<f64>, allowed: Bounds, what: &str| {
             let place = place.key(name);
             value.map_or_else(|| Err(place.missing(what)), |value| place.within(value, allowed))
         };
-        let rate_deg_s = row.rate_max_deg_s;
-        needed("rate_max_deg_s", rate_deg_s, RATE_DEG_S, "the largest rate, deg/s")?;
-        needed(
-            "acceleration_max_deg_s2",
-            row.acceleration_max_deg_s2,
-            ACCELERATION_DEG_S2,
-            "the largest acceleration, deg/s²",
-        )?;
-        if let Some(jerk_deg_s3) = row.jerk_max_deg_s3 {
-            place.key("jerk_max_deg_s3").within(jerk_deg_s3, JERK_DEG_S3)?;
+        let (rates, accelerations, jerks) = match row.kind {
+            JointKind::Revolute => (RATE_DEG_S, ACCELERATION_DEG_S2, JERK_DEG_S3),
+            JointKind::Prismatic => (SPEED_M_S, ACCELERATION_M_S2, JERK_M_S3),
+        };
+        let what = if slides { "the largest speed, m/s" } else { "the largest rate, deg/s" };
+        needed(words.rate_max, row.rate_max, rates, what)?;
+        let what = match row.kind {
+            JointKind::Revolute => "the largest acceleration, deg/s²",
+            JointKind::Prismatic => "the largest acceleration, m/s²",
+        };
+        needed(words.acceleration_max, row.acceleration_max, accelerations, what)?;
+        if let Some(jerk) = row.jerk_max {
+            place.key(words.jerk_max).within(jerk, jerks)?;
         }
-        if let Some(torque_n_m) = row.torque_max_n_m {
-            place.key("torque_max_n_m").within(torque_n_m, LOAD)?;
+        if let Some(effort) = row.effort_max {
+            place.key(words.effort_max).within(effort, LOAD)?;
         }
         Ok(Self::of(row))
     }
 
     /// The limits of a joint that was checked.
     pub(crate) fn of(row: &file::JointRow) -> Self {
-        let angle_rad = |degrees: Option<f64>, none: f64| degrees.map_or(none, f64::to_radians);
+        let words = row.words();
+        let most = |limit: Option<f64>| words.to_si(limit.unwrap_or(f64::INFINITY));
         Self {
-            angle_min_rad: angle_rad(row.angle_min_deg, f64::NEG_INFINITY),
-            angle_max_rad: angle_rad(row.angle_max_deg, f64::INFINITY),
-            rate_max_rad_s: row.rate_max_deg_s.unwrap_or(f64::INFINITY).to_radians(),
-            acceleration_max_rad_s2: row
-                .acceleration_max_deg_s2
-                .unwrap_or(f64::INFINITY)
-                .to_radians(),
-            jerk_max_rad_s3: row.jerk_max_deg_s3.map_or(f64::INFINITY, f64::to_radians),
-            torque_max_n_m: row.torque_max_n_m.unwrap_or(f64::INFINITY),
+            kind: row.kind,
+            angle_min_rad: words.to_si(row.min.unwrap_or(f64::NEG_INFINITY)),
+            angle_max_rad: most(row.max),
+            rate_max_rad_s: most(row.rate_max),
+            acceleration_max_rad_s2: most(row.acceleration_max),
+            jerk_max_rad_s3: most(row.jerk_max),
+            torque_max_n_m: row.effort_max.unwrap_or(f64::INFINITY),
         }
     }
 
     /// Whether the joint cannot move: its smallest angle is its largest.
     pub fn is_locked(&self) -> bool {
         self.angle_min_rad == self.angle_max_rad
+    }
+
+    /// The largest magnitude that its coordinate can have; +∞ if there is none.
+    pub fn farthest(&self) -> f64 {
+        self.angle_min_rad.abs().max(self.angle_max_rad.abs())
     }
 
     /// Smallest and largest angle, rad; for a joint without one of them, one turn in all.

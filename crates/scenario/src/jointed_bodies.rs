@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
-use righting_multibody::{BodyJoint, JointedBody, Placement, RigidBody};
+use righting_multibody::{BodyJoint, JointKind, JointedBody, Placement, RigidBody};
 
 use crate::error::Error;
 use crate::file::{self, JointType};
@@ -110,45 +110,64 @@ fn joint(joint: &file::Joint, place: &Location) -> Result<BodyJoint, Error> {
         Some(value) => Err(place.key(name).refuse(Number(value), format!("none for a {of} joint"))),
         None => Ok(()),
     };
-    match joint.kind {
-        JointType::Prismatic => Err(place.key("type").refuse(
-            "\"prismatic\"",
-            "\"revolute\", \"continuous\" or \"fixed\": joints that slide are not supported yet",
-        )),
-        JointType::Fixed => {
-            if joint.axis.is_some() {
-                return Err(place.key("axis").refuse("an axis", "none for a fixed joint"));
-            }
-            for (name, value) in [
-                ("angle_min_deg", joint.angle_min_deg),
-                ("angle_max_deg", joint.angle_max_deg),
-                ("rate_max_deg_s", joint.rate_max_deg_s),
-                ("acceleration_max_deg_s2", joint.acceleration_max_deg_s2),
-                ("jerk_max_deg_s3", joint.jerk_max_deg_s3),
-                ("torque_max_n_m", joint.torque_max_n_m),
-            ] {
-                refuse(name, value, "fixed")?;
-            }
-            if joint.drive.is_some() {
-                return Err(place.key("drive").refuse("a drive", "none for a fixed joint"));
-            }
-            Ok(BodyJoint::Fixed)
+    let kind = joint.kind.joint_kind();
+    let of = match joint.kind {
+        JointType::Fixed => "fixed",
+        JointType::Revolute => "revolute",
+        JointType::Continuous => "continuous",
+        JointType::Prismatic => "prismatic",
+    };
+    if kind != Some(JointKind::Revolute) {
+        for (name, value) in [
+            ("angle_min_deg", joint.angle_min_deg),
+            ("angle_max_deg", joint.angle_max_deg),
+            ("rate_max_deg_s", joint.rate_max_deg_s),
+            ("acceleration_max_deg_s2", joint.acceleration_max_deg_s2),
+            ("jerk_max_deg_s3", joint.jerk_max_deg_s3),
+            ("torque_max_n_m", joint.torque_max_n_m),
+        ] {
+            refuse(name, value, of)?;
         }
-        JointType::Revolute | JointType::Continuous => {
-            if joint.kind == JointType::Continuous {
-                refuse("angle_min_deg", joint.angle_min_deg, "continuous")?;
-                refuse("angle_max_deg", joint.angle_max_deg, "continuous")?;
-            }
-            let axis_place = place.key("axis");
-            let axis = axis_place.all_within(joint.axis.unwrap_or([0.0, 0.0, 1.0]), AXIS)?;
-            // So that squares of small numbers do not vanish.
-            let largest = Vector3::from(axis).amax();
-            if largest == 0.0 {
-                return Err(axis_place.refuse("[0, 0, 0]", "a vector that is not zero"));
-            }
-            Ok(BodyJoint::Revolute(Vector3::from(axis) / largest))
+        if joint.drive.is_some() {
+            return Err(place.key("drive").refuse("a drive", format!("none for a {of} joint")));
         }
     }
+    if kind != Some(JointKind::Prismatic) {
+        for (name, value) in [
+            ("travel_min_m", joint.travel_min_m),
+            ("travel_max_m", joint.travel_max_m),
+            ("speed_max_m_s", joint.speed_max_m_s),
+            ("acceleration_max_m_s2", joint.acceleration_max_m_s2),
+            ("jerk_max_m_s3", joint.jerk_max_m_s3),
+            ("force_max_n", joint.force_max_n),
+        ] {
+            refuse(name, value, of)?;
+        }
+    }
+    if joint.kind == JointType::Continuous {
+        refuse("angle_min_deg", joint.angle_min_deg, of)?;
+        refuse("angle_max_deg", joint.angle_max_deg, of)?;
+    }
+    match kind {
+        None if joint.axis.is_some() => {
+            Err(place.key("axis").refuse("an axis", "none for a fixed joint"))
+        }
+        None => Ok(BodyJoint::Fixed),
+        Some(JointKind::Revolute) => Ok(BodyJoint::Revolute(axis(joint, place)?)),
+        Some(JointKind::Prismatic) => Ok(BodyJoint::Prismatic(axis(joint, place)?)),
+    }
+}
+
+/// The axis of a joint that moves; its largest component is ±1.
+fn axis(joint: &file::Joint, place: &Location) -> Result<Vector3<f64>, Error> {
+    let place = place.key("axis");
+    let axis = place.all_within(joint.axis.unwrap_or([0.0, 0.0, 1.0]), AXIS)?;
+    // So that squares of small numbers do not vanish.
+    let largest = Vector3::from(axis).amax();
+    if largest == 0.0 {
+        return Err(place.refuse("[0, 0, 0]", "a vector that is not zero"));
+    }
+    Ok(Vector3::from(axis) / largest)
 }
 
 fn rigid_body(body: &file::Body, place: &Location) -> Result<RigidBody, Error> {

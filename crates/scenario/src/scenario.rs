@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use nalgebra::Vector3;
-use righting_multibody::{External, Quaternion};
+use righting_multibody::{External, JointKind, Quaternion};
 use righting_scalar::Scalar;
 use sha2::{Digest, Sha256};
 
 use crate::collision::CollisionModel;
-use crate::end::{check_end_clearances, end_angles};
+use crate::end::{check_end_clearances, end_coordinates};
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::file::{self, SystemReference};
@@ -155,14 +155,12 @@ impl Scenario {
             Some(hard) => hard,
             None => !solver.is_paper() && !scenario.weights.has_end(),
         };
-        let end_angles_deg = scenario.end.as_mut().and_then(|end| end.joint_angles_deg.take());
-        let end_momenta_place = place.key("final").key("wheel_momenta_n_m_s");
+        let end_place = place.key("final");
+        let end_angles_rad = end_coordinates(scenario.end.as_ref(), &system, &end_place)?;
         let end_momenta_n_m_s =
-            scenario.end.as_mut().and_then(|end| end.wheel_momenta_n_m_s.take());
-        let end_wheel_momenta_n_m_s =
-            end_momenta(end_momenta_n_m_s.as_deref(), &wheels, &end_momenta_place)?;
-        let end_place = place.key("final").key("joint_angles_deg");
-        let end_angles_rad = end_angles(end_angles_deg.as_deref(), &system, &end_place)?;
+            scenario.end.as_ref().and_then(|end| end.wheel_momenta_n_m_s.as_deref());
+        let end_momenta_place = end_place.key("wheel_momenta_n_m_s");
+        let end_wheel_momenta_n_m_s = end_momenta(end_momenta_n_m_s, &wheels, &end_momenta_place)?;
         let clearance_place = place.key("collision").key("clearance_m");
         let clearance_m = match scenario.collision.clearance_m {
             Some(clearance_m) => clearance_place.within(clearance_m, CLEARANCE_M)?,
@@ -176,25 +174,27 @@ impl Scenario {
             clearance: clearance_place,
         };
         let collision = start.collision_model(clearance_m, &mut notes)?;
-        check_end_clearances(&system, &collision, &initial, &end_angles_rad, &end_place)?;
+        let posture_place = end_place.key("joint_angles_deg");
+        check_end_clearances(&system, &collision, &initial, &end_angles_rad, &posture_place)?;
+        let kinds = system.model.joint_kinds();
+        let at_rest = |kind| file::of_kind(&kinds, kind, &vec![0.0; kinds.len()]);
+        let given = scenario.initial.clone();
         let resolved = file::Scenario {
             initial: file::Initial {
-                joint_angles_deg: scenario.initial.joint_angles_deg.clone(),
                 joint_rates_deg_s: Some(
-                    scenario
-                        .initial
-                        .joint_rates_deg_s
-                        .clone()
-                        .unwrap_or_else(|| vec![0.0; system.joint_count()]),
+                    given.joint_rates_deg_s.unwrap_or_else(|| at_rest(JointKind::Revolute)),
                 ),
-                angular_rate_deg_s: Some(scenario.initial.angular_rate_deg_s.unwrap_or_default()),
-                attitude: Some(scenario.initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
+                joint_speeds_m_s: kinds.contains(&JointKind::Prismatic).then(|| {
+                    given.joint_speeds_m_s.unwrap_or_else(|| at_rest(JointKind::Prismatic))
+                }),
+                angular_rate_deg_s: Some(given.angular_rate_deg_s.unwrap_or_default()),
+                attitude: Some(given.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0])),
+                ..given
             },
             weights: weights.to_file(free_duration.is_some(), !wheels.is_empty()),
             end: Some(file::End {
                 hard: Some(is_end_hard),
-                joint_angles_deg: end_angles_deg,
-                wheel_momenta_n_m_s: end_momenta_n_m_s,
+                ..scenario.end.clone().unwrap_or_default()
             }),
             collision: file::Collision { clearance_m: Some(collision.clearance_m) },
             solver: solver.to_file(),
@@ -292,7 +292,7 @@ impl Scenario {
         self.is_end_hard
     }
 
-    /// The angles in which joints shall end, one a joint, rad; none where the joint is free.
+    /// The coordinates in which joints shall end, one a joint, rad or m; none where the joint is free.
     pub fn end_angles_rad(&self) -> &[Option<f64>] {
         &self.end_angles_rad
     }
@@ -417,7 +417,9 @@ fn check_momentum(
     let fastest_rad_s = initial
         .joint_rates_rad_s
         .iter()
-        .fold(initial.angular_rate_rad_s.norm(), |fastest, rate| fastest.max(rate.abs()));
+        .zip(system.radians_a_unit())
+        .map(|(rate, counts)| rate.abs() * counts)
+        .fold(initial.angular_rate_rad_s.norm(), f64::max);
     let place = place.key("angular_rate_deg_s");
     let [x, y, z] = given.angular_rate_deg_s.unwrap_or_default().map(Number);
     let value = format!("[{x}, {y}, {z}]");

@@ -1,5 +1,7 @@
 //! Joint limits that a start is past by rounding.
 
+use righting_multibody::JointKind;
+
 use crate::file;
 use crate::json::{Location, Number};
 use crate::names::Names;
@@ -18,7 +20,10 @@ pub(crate) fn widen_to_start(
     place: &Location,
     notes: &mut Vec<String>,
 ) {
-    let rates_deg_s = initial.joint_rates_deg_s.as_deref().unwrap_or_default();
+    let kinds = system.joint_kinds();
+    let coordinates =
+        file::in_joint_order(&kinds, &initial.joint_angles_deg, &initial.joint_travels_m);
+    let rates = initial.rates_in_joint_order(&kinds);
     let names = Names::of(system);
     for (joint, mut row) in system.joints().into_iter().enumerate() {
         let joint_place = row.at(place);
@@ -30,38 +35,46 @@ pub(crate) fn widen_to_start(
                 names.joint(joint)
             )));
         };
-        if let Some(&start_deg) = initial.joint_angles_deg.get(joint) {
-            widen_angles(&mut row, start_deg, &mut note);
+        if let Some(&start) = coordinates.get(joint) {
+            widen_range(&mut row, start, &mut note);
         }
-        if let Some(&start_deg_s) = rates_deg_s.get(joint) {
-            widen_rate(&mut row, start_deg_s.abs(), &mut note);
+        if let Some(&start) = rates.get(joint) {
+            widen_rate(&mut row, start.abs(), &mut note);
         }
         system.set_limits(&row);
     }
 }
 
-fn widen_angles(row: &mut file::JointRow, start_deg: f64, note: &mut impl FnMut(&str, f64, f64)) {
-    let is_rounding =
-        |past_deg: f64| 0.0 < past_deg && past_deg <= PRINTED_DEG.max(PRINTED * start_deg.abs());
-    let is_locked = row.angle_min_deg.is_some() && row.angle_min_deg == row.angle_max_deg;
-    if let Some(min_deg) = row.angle_min_deg.filter(|min_deg| is_rounding(min_deg - start_deg)) {
-        note("angle_min_deg", min_deg, start_deg);
-        row.angle_min_deg = Some(start_deg);
-        row.angle_max_deg = if is_locked { Some(start_deg) } else { row.angle_max_deg };
-    } else if let Some(max_deg) =
-        row.angle_max_deg.filter(|max_deg| is_rounding(start_deg - max_deg))
-    {
-        note("angle_max_deg", max_deg, start_deg);
-        row.angle_max_deg = Some(start_deg);
-        row.angle_min_deg = if is_locked { Some(start_deg) } else { row.angle_min_deg };
+fn widen_range(row: &mut file::JointRow, start: f64, note: &mut impl FnMut(&str, f64, f64)) {
+    let least = match row.kind {
+        JointKind::Revolute => PRINTED_DEG,
+        JointKind::Prismatic => 0.0,
+    };
+    let range = row.max.unwrap_or(0.0) - row.min.unwrap_or(0.0);
+    let scale = match row.kind {
+        JointKind::Revolute => start.abs(),
+        // What is printed of a travel has the digits of the range that it is in.
+        JointKind::Prismatic => start.abs().max(range),
+    };
+    let is_rounding = |past: f64| 0.0 < past && past <= least.max(PRINTED * scale);
+    let words = row.words();
+    let is_locked = row.min.is_some() && row.min == row.max;
+    if let Some(min) = row.min.filter(|min| is_rounding(min - start)) {
+        note(words.min, min, start);
+        row.min = Some(start);
+        row.max = if is_locked { Some(start) } else { row.max };
+    } else if let Some(max) = row.max.filter(|max| is_rounding(start - max)) {
+        note(words.max, max, start);
+        row.max = Some(start);
+        row.min = if is_locked { Some(start) } else { row.min };
     }
 }
 
-fn widen_rate(row: &mut file::JointRow, start_deg_s: f64, note: &mut impl FnMut(&str, f64, f64)) {
-    let Some(limit_deg_s) = row.rate_max_deg_s else { return };
-    let past_deg_s = start_deg_s - limit_deg_s;
-    if 0.0 < past_deg_s && past_deg_s <= PRINTED * limit_deg_s {
-        note("rate_max_deg_s", limit_deg_s, start_deg_s);
-        row.rate_max_deg_s = Some(start_deg_s);
+fn widen_rate(row: &mut file::JointRow, start: f64, note: &mut impl FnMut(&str, f64, f64)) {
+    let Some(limit) = row.rate_max else { return };
+    let past = start - limit;
+    if 0.0 < past && past <= PRINTED * limit {
+        note(row.words().rate_max, limit, start);
+        row.rate_max = Some(start);
     }
 }

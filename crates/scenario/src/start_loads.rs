@@ -35,7 +35,7 @@ pub(crate) fn check(
         }
         let needed_n_m = least_torque_n_m(system, initial, joint);
         if needed_n_m > limits.torque_max_n_m {
-            return Err(row.at(place).key("torque_max_n_m").refuse(
+            return Err(row.at(place).key(row.words().effort_max).refuse(
                 Number(limits.torque_max_n_m),
                 format!(
                     "at least {}: {} needs as much at the start, whatever the joints' \

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 use righting_multibody as multibody;
-use righting_multibody::{Quaternion, System};
+use righting_multibody::{JointKind, Quaternion, System};
 
 use crate::bodies::{KeepOut, Solid, keep_out, solids};
 use crate::drive::Drive;
@@ -76,12 +76,23 @@ impl SystemDescription {
         self.joint_limits.len()
     }
 
+    /// What a unit of each joint's coordinate counts against a radian: 1 where the joint turns; where it slides,
+    /// its travel counts by the system's size.
+    pub fn radians_a_unit(&self) -> Vec<f64> {
+        let size_m = self.model.size_m();
+        let counts = |limits: &JointLimits| match limits.kind {
+            JointKind::Revolute => 1.0,
+            JointKind::Prismatic => 1.0 / size_m,
+        };
+        self.joint_limits.iter().map(counts).collect()
+    }
+
     /// Whether a joint's jerk is limited: then accelerations are continuous, and jerks the controls.
     pub fn limits_jerk(&self) -> bool {
         self.joint_limits.iter().any(|limits| limits.jerk_max_rad_s3.is_finite())
     }
 
-    /// Joint angles at a point of the unit cube spread over the joints' ranges, rad; a joint without
+    /// Joint coordinates at a point of the unit cube spread over the joints' ranges, rad or m; a joint without
     /// limits ranges over one turn.
     pub fn joint_angles_at(&self, unit: &[f64]) -> Vec<f64> {
         let ranges = self.joint_limits.iter().zip(unit);

@@ -1,6 +1,6 @@
 //! The same scenario measured in other units.
 
-use righting_multibody::{ModelError, Units};
+use righting_multibody::{JointKind, ModelError, Units};
 
 use crate::bodies::Solid;
 use crate::collision::{CollisionModel, Other, Pair};
@@ -23,9 +23,15 @@ impl Scenario {
     /// # Errors
     /// [`ModelError::Overflow`] when masses or lengths in these units are beyond any number.
     pub fn in_units(&self, units: &Units, objective_unit: f64) -> Result<Self, ModelError> {
+        let kinds = self.system.model.joint_kinds();
         Ok(Self {
             system: self.system.in_units(units)?,
-            initial: self.initial.in_units(units),
+            initial: self.initial.in_units(units, &kinds),
+            end_angles_rad: kinds
+                .iter()
+                .zip(&self.end_angles_rad)
+                .map(|(kind, end)| end.map(|end| end / units.of_joint(*kind)))
+                .collect(),
             horizon: Horizon { duration_s: self.horizon.duration_s / units.time_s, ..self.horizon },
             free_duration: self.free_duration.map(|free| free.in_units(units)),
             weights: self.weights.in_units(units, objective_unit),
@@ -45,13 +51,7 @@ impl Scenario {
 
 impl SystemDescription {
     fn in_units(&self, units: &Units) -> Result<Self, ModelError> {
-        let limits = self.joint_limits.iter().map(|limits| JointLimits {
-            rate_max_rad_s: limits.rate_max_rad_s * units.time_s,
-            acceleration_max_rad_s2: limits.acceleration_max_rad_s2 * units.time_s.powi(2),
-            jerk_max_rad_s3: limits.jerk_max_rad_s3 * units.time_s.powi(3),
-            torque_max_n_m: limits.torque_max_n_m / units.torque_n_m(),
-            ..*limits
-        });
+        let limits = self.joint_limits.iter().map(|limits| limits.in_units(units));
         Ok(Self {
             model: self.model.in_units(units)?,
             keep_out_radius_m: self.keep_out_radius_m.map(|radius_m| radius_m / units.length_m),
@@ -66,6 +66,21 @@ impl SystemDescription {
             load_limits: self.load_limits.in_units(units),
             ..self.clone()
         })
+    }
+}
+
+impl JointLimits {
+    fn in_units(&self, units: &Units) -> Self {
+        let unit = units.of_joint(self.kind);
+        Self {
+            kind: self.kind,
+            angle_min_rad: self.angle_min_rad / unit,
+            angle_max_rad: self.angle_max_rad / unit,
+            rate_max_rad_s: self.rate_max_rad_s * units.time_s / unit,
+            acceleration_max_rad_s2: self.acceleration_max_rad_s2 * units.time_s.powi(2) / unit,
+            jerk_max_rad_s3: self.jerk_max_rad_s3 * units.time_s.powi(3) / unit,
+            torque_max_n_m: self.torque_max_n_m / (units.torque_n_m() / unit),
+        }
     }
 }
 
@@ -94,12 +109,17 @@ impl LoadLimits {
 }
 
 impl Initial {
-    fn in_units(&self, units: &Units) -> Self {
+    fn in_units(&self, units: &Units, kinds: &[JointKind]) -> Self {
         let Units { length_m, mass_kg, time_s } = *units;
+        let of_joints = |values: &[f64], unit: f64| {
+            let listed = kinds.iter().zip(values);
+            listed.map(|(kind, value)| value * unit / units.of_joint(*kind)).collect()
+        };
         Self {
             velocity_m_s: self.velocity_m_s * (time_s / length_m),
             angular_rate_rad_s: self.angular_rate_rad_s * time_s,
-            joint_rates_rad_s: self.joint_rates_rad_s.iter().map(|rate| rate * time_s).collect(),
+            joint_angles_rad: of_joints(&self.joint_angles_rad, 1.0),
+            joint_rates_rad_s: of_joints(&self.joint_rates_rad_s, time_s),
             angular_momentum_n_m_s: self.angular_momentum_n_m_s
                 * (time_s / (mass_kg * length_m.powi(2))),
             ..self.clone()

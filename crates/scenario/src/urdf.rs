@@ -9,7 +9,7 @@ use righting_import::{
 use righting_multibody::{self as multibody, Placement, RigidBody};
 
 use crate::error::Error;
-use crate::file::{self, SystemOptions};
+use crate::file::{self, JointType, SystemOptions};
 use crate::file_io;
 use crate::json::{Bounds, Location};
 use crate::system_description::{LENGTH_M, base};
@@ -211,13 +211,23 @@ fn joint(
     options: &SystemOptions,
     place: &Location,
 ) -> Result<file::Joint, Error> {
-    if joint.is_sliding {
-        return Err(place
-            .key("locked")
-            .key(&joint.name)
-            .missing("where this joint is held: it slides, and joints that move have to turn"));
-    }
     let is_limited = joint.lower.is_finite() || joint.upper.is_finite();
+    let angles = joint.placement.roll_pitch_yaw_rad().map(degrees);
+    let placed = file::Joint {
+        name: Some(joint.name.clone()),
+        position_m: Some(array(&joint.placement.position_m)),
+        rpy_deg: angles.iter().any(|angle| *angle != 0.0).then_some(angles),
+        axis: Some(array(&joint.axis)),
+        ..file::Joint::of_kind(match (joint.is_sliding, is_limited) {
+            (true, _) => JointType::Prismatic,
+            (false, true) => JointType::Revolute,
+            (false, false) => JointType::Continuous,
+        })
+    };
+    let effort = joint.effort_max.is_finite().then_some(joint.effort_max);
+    if joint.is_sliding {
+        return sliding(joint, file::Joint { force_max_n: effort, ..placed }, options, place);
+    }
     let limit_deg = |limit: f64| limit.is_finite().then(|| degrees(limit));
     let acceleration = options.acceleration_max_deg_s2.ok_or_else(|| {
         place.key("acceleration_max_deg_s2").missing(
@@ -233,21 +243,46 @@ fn joint(
             ))
         })?,
     };
-    let angles = joint.placement.roll_pitch_yaw_rad().map(degrees);
     Ok(file::Joint {
-        name: Some(joint.name.clone()),
-        kind: if is_limited { file::JointType::Revolute } else { file::JointType::Continuous },
-        position_m: Some(array(&joint.placement.position_m)),
-        rpy_deg: angles.iter().any(|angle| *angle != 0.0).then_some(angles),
-        rotation: None,
-        axis: Some(array(&joint.axis)),
         angle_min_deg: limit_deg(joint.lower),
         angle_max_deg: limit_deg(joint.upper),
         rate_max_deg_s: Some(rate),
         acceleration_max_deg_s2: Some(acceleration),
-        jerk_max_deg_s3: None,
-        torque_max_n_m: joint.effort_max.is_finite().then_some(joint.effort_max),
-        drive: None,
+        torque_max_n_m: effort,
+        ..placed
+    })
+}
+
+/// The limits of a joint that slides.
+fn sliding(
+    joint: &MovingJoint,
+    placed: file::Joint,
+    options: &SystemOptions,
+    place: &Location,
+) -> Result<file::Joint, Error> {
+    if !(joint.lower.is_finite() && joint.upper.is_finite()) {
+        return Err(place
+            .key("locked")
+            .key(&joint.name)
+            .missing("where this joint is held: it slides, and the file does not say how far"));
+    }
+    let acceleration = options.acceleration_max_m_s2.ok_or_else(|| {
+        place.key("acceleration_max_m_s2").missing(
+            "the largest acceleration of joints that slide, m/s², which URDF does not have",
+        )
+    })?;
+    let speed = joint.rate_max.or(options.speed_max_m_s).ok_or_else(|| {
+        place.key("speed_max_m_s").missing(format!(
+            "the largest speed of joints like \"{}\", m/s, for which the file has no velocity limit",
+            joint.name
+        ))
+    })?;
+    Ok(file::Joint {
+        travel_min_m: Some(joint.lower),
+        travel_max_m: Some(joint.upper),
+        speed_max_m_s: Some(speed),
+        acceleration_max_m_s2: Some(acceleration),
+        ..placed
     })
 }
 

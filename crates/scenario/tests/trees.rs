@@ -42,6 +42,18 @@ fn scenario(system: &Value) -> Result<Scenario, Error> {
     Scenario::parse(&scenario.to_string(), Path::new("turn.json"))
 }
 
+/// A joint that slides, with some of its fields changed; null takes one away.
+fn slide(change: Value) -> Value {
+    let mut joint = json!({
+        "type": "prismatic", "travel_min_m": 0.5, "travel_max_m": 1.5, "speed_max_m_s": 0.2,
+        "acceleration_max_m_s2": 0.1, "force_max_n": 40, "axis": [0, 0, 2]
+    });
+    for (name, value) in change.as_object().unwrap() {
+        joint[name] = value.clone();
+    }
+    joint
+}
+
 #[test]
 fn joints_are_in_the_order_of_the_bodies_that_move() {
     let scenario = scenario(&two_arms()).unwrap();
@@ -83,7 +95,7 @@ fn the_shipped_twin_is_the_arm_in_rows() {
 #[test]
 fn what_is_wrong_is_named() {
     type Case = (fn(&mut Value), &'static str);
-    let cases: [Case; 24] = [
+    let cases: [Case; 29] = [
         (
             |s| s["bodies"][0]["parent"] = json!("left_leg"),
             "bodies[0].parent: found \"left_leg\", expected the name of another body, or of the base, \"bus\"",
@@ -110,7 +122,27 @@ fn what_is_wrong_is_named() {
         ),
         (
             |s| s["bodies"][1]["joint"]["type"] = json!("prismatic"),
-            "bodies[1].joint.type: found \"prismatic\", expected \"revolute\", \"continuous\" or \"fixed\"",
+            "bodies[1].joint.rate_max_deg_s: found 10, expected none for a prismatic joint",
+        ),
+        (
+            |s| s["bodies"][1]["joint"]["travel_max_m"] = json!(1),
+            "bodies[1].joint.travel_max_m: found 1, expected none for a revolute joint",
+        ),
+        (
+            |s| s["bodies"][1]["joint"] = slide(json!({ "travel_min_m": null })),
+            "bodies[1].joint.travel_min_m: missing, expected where the joint's travel ends, m",
+        ),
+        (
+            |s| s["bodies"][1]["joint"] = slide(json!({ "travel_min_m": 2 })),
+            "bodies[1].joint.travel_min_m: found 2, expected at most travel_max_m, 1.5",
+        ),
+        (
+            |s| s["bodies"][1]["joint"] = slide(json!({ "speed_max_m_s": null })),
+            "bodies[1].joint.speed_max_m_s: missing, expected the largest speed, m/s",
+        ),
+        (
+            |s| s["bodies"][1]["joint"] = slide(json!({ "drive": { "gear_ratio": 100 } })),
+            "bodies[1].joint.drive: found a drive, expected none for a prismatic joint",
         ),
         (
             |s| s["bodies"][1]["joint"]["type"] = json!("ball"),

@@ -122,8 +122,8 @@ fn what_urdf_lacks_is_asked_for() {
         (
             sliding.as_str(),
             options(),
-            "locked.hinge: missing, expected where this joint is held: it slides, and joints that move \
-             have to turn",
+            "acceleration_max_m_s2: missing, expected the largest acceleration of joints that slide, m/s², \
+             which URDF does not have",
         ),
         (
             ROBOT,

@@ -130,13 +130,15 @@ pub fn arm(joints: RangeInclusive<usize>) -> impl Strategy<Value = Scenario> {
 
 /// A scenario with this system at rest, all joints at zero.
 pub(crate) fn at_rest(system: file::System) -> Scenario {
-    let joint_angles_deg = vec![0.0; system.joints().len()];
+    let kinds = system.joint_kinds();
+    let mut initial = file::Initial::default();
+    initial.set_resting_joints(&kinds, &vec![0.0; kinds.len()]);
     let scenario = file::Scenario {
         name: "arm at rest".to_owned(),
         description: None,
         system: file::SystemReference::Inline(Box::new(system)),
         system_options: None,
-        initial: file::Initial { joint_angles_deg, ..file::Initial::default() },
+        initial,
         maneuver: file::Maneuver {
             kind: file::ManeuverType::Slew,
             axis: Some([0.0, 0.0, 1.0]),

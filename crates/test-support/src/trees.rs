@@ -13,6 +13,7 @@ fn joint() -> impl Strategy<Value = file::Joint> {
         1 => Just(file::JointType::Fixed),
         3 => Just(file::JointType::Revolute),
         1 => Just(file::JointType::Continuous),
+        2 => Just(file::JointType::Prismatic),
     ];
     let position = prop_oneof![
         1 => Just(None),
@@ -31,21 +32,21 @@ fn joint() -> impl Strategy<Value = file::Joint> {
         1 => prop::array::uniform3(0.1..1.0_f64).prop_map(Some),
     ];
     (kind, position, orientation, axis).prop_map(|(kind, position_m, (rpy_deg, rotation), axis)| {
-        let moves = kind != file::JointType::Fixed;
+        let moves = kind.joint_kind();
+        let turns = moves == Some(file::JointKind::Revolute);
+        let slides = moves == Some(file::JointKind::Prismatic);
         file::Joint {
-            name: None,
-            kind,
             position_m,
             rpy_deg,
             rotation,
-            axis: axis.filter(|_| moves),
-            angle_min_deg: None,
-            angle_max_deg: None,
-            rate_max_deg_s: moves.then_some(1000.0),
-            acceleration_max_deg_s2: moves.then_some(1000.0),
-            jerk_max_deg_s3: None,
-            torque_max_n_m: None,
-            drive: None,
+            axis: axis.filter(|_| moves.is_some()),
+            rate_max_deg_s: turns.then_some(1000.0),
+            acceleration_max_deg_s2: turns.then_some(1000.0),
+            travel_min_m: slides.then_some(-4.0),
+            travel_max_m: slides.then_some(4.0),
+            speed_max_m_s: slides.then_some(20.0),
+            acceleration_max_m_s2: slides.then_some(20.0),
+            ..file::Joint::of_kind(kind)
         }
     })
 }

@@ -61,6 +61,14 @@ impl Units {
             joint.jerk_max_deg_s3 =
                 joint.jerk_max_deg_s3.map(|jerk_deg_s3| jerk_deg_s3 / time.powi(3));
             joint.torque_max_n_m = joint.torque_max_n_m.map(|torque_n_m| torque_n_m * torque);
+            let scaled = |limit: Option<f64>, unit: f64| limit.map(|limit| limit * unit);
+            joint.travel_min_m = scaled(joint.travel_min_m, length);
+            joint.travel_max_m = scaled(joint.travel_max_m, length);
+            joint.speed_max_m_s = scaled(joint.speed_max_m_s, length / time);
+            joint.acceleration_max_m_s2 =
+                scaled(joint.acceleration_max_m_s2, length / time.powi(2));
+            joint.jerk_max_m_s3 = scaled(joint.jerk_max_m_s3, length / time.powi(3));
+            joint.force_max_n = scaled(joint.force_max_n, torque / length);
             scale_drive(&mut joint.drive);
         }
         for link in &mut system.links {
@@ -114,6 +122,9 @@ impl Units {
         let initial = &mut file.initial;
         initial.angular_rate_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
         initial.joint_rates_deg_s.iter_mut().flatten().for_each(|rate| *rate /= self.time);
+        initial.joint_travels_m.iter_mut().for_each(|travel| *travel *= self.length);
+        let speeds = initial.joint_speeds_m_s.iter_mut().flatten();
+        speeds.for_each(|speed| *speed *= self.length / self.time);
         file.horizon.duration_s = file.horizon.duration_s.times(self.time);
         file.weights.control = file.weights.control.map(|weight| weight * self.time.powi(3));
         file.weights.angular_rate =

@@ -269,7 +269,12 @@ fn pairs_of_bodies(
             way.extend(&b[shared..]);
             let between_m: f64 =
                 way.windows(2).map(|joints| distance_m(joints[0], joints[1])).sum();
-            if between_m > rounding_m {
+            // A joint between the two slides that neither shares.
+            let slides_apart = [&a[shared..], &b[shared..]].into_iter().any(|way| {
+                let before_last = &way[..way.len().saturating_sub(1)];
+                before_last.iter().any(|&body| lineage.slides(body))
+            });
+            if slides_apart || between_m > rounding_m {
                 pairs.push(Pair {
                     between: Between::Pieces(one.piece, other.piece),
                     outer,

@@ -92,13 +92,15 @@ fn check_claims(
     ledger.add(cost);
 
     let end = State::of_node(trajectory.end());
-    let found = Requirements::new(scenario).goal.reached(&end);
+    let asked = Requirements::new(scenario);
+    let found = asked.goal.reached(&end, &asked.slides);
     let claimed = &solution.terminal;
     let pairs = [
         (found.attitude_error, claimed.attitude_error),
         (found.attitude_error_deg, claimed.attitude_error_deg),
         (found.angular_rate_deg_s, claimed.angular_rate_deg_s),
         (found.joint_rate_deg_s, claimed.joint_rate_deg_s),
+        (found.joint_speed_m_s.unwrap_or(0.0), claimed.joint_speed_m_s.unwrap_or(0.0)),
     ];
     let mut terminal = Worst::new("terminal mismatch", "", 0.0);
     for (found, claimed) in pairs {

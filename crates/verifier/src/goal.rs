@@ -48,8 +48,8 @@ impl Goal {
         Self::Attitude(start * UnitQuaternion::from_axis_angle(&axis, angle_rad))
     }
 
-    /// What a maneuver that ends in the state `end` has reached.
-    pub fn reached(&self, end: &State<'_>) -> Terminal {
+    /// What a maneuver that ends in the state `end` has reached, where the joints that `slides` says slide.
+    pub fn reached(&self, end: &State<'_>, slides: &[bool]) -> Terminal {
         let (attitude_error, attitude_error_deg) = match self {
             Self::Attitude(target) => {
                 // The quaternion from the target to the attitude reached.
@@ -59,12 +59,18 @@ impl Goal {
             }
             Self::LessRate { .. } => (0.0, 0.0),
         };
-        let squares = end.joint_rates.iter().map(|rate| rate * rate);
+        let norm_of = |sliding: bool| {
+            let rates = end.joint_rates.iter().zip(slides);
+            let squares =
+                rates.filter(|(_, slides)| **slides == sliding).map(|(rate, _)| rate * rate);
+            squares.sum::<f64>().sqrt()
+        };
         Terminal {
             attitude_error,
             attitude_error_deg,
             angular_rate_deg_s: end.angular_rate.norm().to_degrees(),
-            joint_rate_deg_s: squares.sum::<f64>().sqrt().to_degrees(),
+            joint_rate_deg_s: norm_of(false).to_degrees(),
+            joint_speed_m_s: slides.contains(&true).then(|| norm_of(true)),
         }
     }
 }

@@ -85,6 +85,7 @@ mod tolerances;
 mod verify;
 mod waypoints;
 mod wheels;
+mod worst_of_joints;
 
 pub use directory::{Verified, verify_directory};
 pub use dormand_prince::DormandPrince;

@@ -11,6 +11,8 @@ pub(super) struct Lineage {
     parents: Vec<Option<usize>>,
     /// The joint coordinate of each; none where it is fixed.
     joints: Vec<Option<usize>>,
+    /// Which slide.
+    slides: Vec<bool>,
 }
 
 impl Lineage {
@@ -28,6 +30,7 @@ impl Lineage {
         Self {
             parents: bodies.iter().map(|body| places.get(body.parent.as_str()).copied()).collect(),
             joints: bodies.iter().map(joint).collect(),
+            slides: bodies.iter().map(|body| body.joint.kind == JointType::Prismatic).collect(),
         }
     }
 
@@ -39,6 +42,11 @@ impl Lineage {
     /// The joint coordinate of a body; none where it is fixed.
     pub fn joint(&self, body: usize) -> Option<usize> {
         self.joints[body]
+    }
+
+    /// Whether a body slides on the one that carries it.
+    pub fn slides(&self, body: usize) -> bool {
+        self.slides[body]
     }
 
     /// The bodies from the one on the base to this one.

@@ -20,7 +20,7 @@ const SHARE: f64 = 0.01;
 /// The limits of a system, where it has any.
 #[derive(Clone, Debug)]
 pub(super) struct LoadLimits {
-    /// One a joint, N m.
+    /// One a joint, N m or N.
     torques_n_m: Vec<Option<f64>>,
     /// One a joint.
     drives: Vec<DriveTorque>,
@@ -54,7 +54,7 @@ impl DriveTorque {
 impl LoadLimits {
     pub fn new(system: &file::System) -> Self {
         Self {
-            torques_n_m: system.joints().iter().map(|joint| joint.torque_max_n_m).collect(),
+            torques_n_m: system.joints().iter().map(|joint| joint.effort_max).collect(),
             drives: system.joints().iter().map(DriveTorque::new).collect(),
             mount_force_n: system.mount.as_ref().and_then(|mount| mount.force_max_n),
             mount_moment_n_m: system.mount.as_ref().and_then(|mount| mount.moment_max_n_m),
@@ -79,13 +79,19 @@ struct Loads {
 }
 
 impl Loads {
-    fn new(limits: &LoadLimits) -> Self {
+    fn new(limits: &LoadLimits, slides: &[bool]) -> Self {
         let worst = |name, unit, limit: Option<f64>| {
             limit.map(|limit| Worst::of_limit(name, unit, SHARE * limit))
         };
         let torques = limits.torques_n_m.iter();
         Self {
-            torques: torques.map(|&limit| worst("joint torque", "N m", limit)).collect(),
+            torques: torques
+                .zip(slides)
+                .map(|(&limit, slides)| match slides {
+                    true => worst("joint force", "N", limit),
+                    false => worst("joint torque", "N m", limit),
+                })
+                .collect(),
             mount_force: worst("force at the mount", "N", limits.mount_force_n),
             mount_moment: worst("moment at the mount", "N m", limits.mount_moment_n_m),
             base_rate: worst("angular rate of the base", "rad/s", limits.base_rate_rad_s),
@@ -104,7 +110,7 @@ pub(super) fn check(
         return;
     }
     let model = &asked.model;
-    let mut worst = Loads::new(limits);
+    let mut worst = Loads::new(limits, &asked.slides);
     let mut follower = Follower::new(model, &asked.surroundings);
     let mut torques = vec![0.0; model.joint_count()];
     for (k, (interval, node)) in trajectory.intervals().iter().zip(simulation.nodes()).enumerate() {

@@ -14,6 +14,7 @@
 //! 0 = Σ m a                               no force from outside
 //! 0 = Σ [ (x − c) × m a + J α + Ω × J Ω ] no moment from outside, or the one that acts
 //! τ = e · Σ [ (x − p) × m a + J α + Ω × J Ω ]   over the bodies beyond a joint with axis e through p
+//! f = e · Σ m a                                  over the bodies beyond a joint that slides along e
 //! ```
 //!
 //! Accelerations are linear in those of the base, r̈ and Ω̇: the bodies are moved once with the base
@@ -148,7 +149,7 @@ impl Model {
         self.total_mass
     }
 
-    /// Writes where all frames are at joint angles `q` (j, rad), in body axes from the origin of the body
+    /// Writes where all frames are at joint coordinates `q` (j, rad or m), in body axes from the origin of the body
     /// frame (m), into `frames`. Link i is the straight segment from origin i−1 to origin i.
     ///
     /// # Panics

@@ -9,10 +9,14 @@
 //!
 //! and |p − o_j| ≤ R_j, the lengths of the links from joint j to the end of that one, or to the frame that p
 //! moves with and from there to p. So |ṗ| is at most Σ R_j |q̇_j|, and |p̈| at most Σ R_j |q̈_j| + (Σ |q̇_j|) (Σ R_j |q̇_j|).
+//!
+//! A joint that slides adds q̇_j e_j to ṗ, and q̈_j e_j + 2 Σ_i q̇_i q̇_j e_i × e_j to p̈, over the joints that
+//! turn it: its R_j is 1, it does not count in the sum of the |q̇_j|, and counts twice in what that multiplies.
+//! The lengths then hold its farthest travel too.
 
 use nalgebra::Vector3;
 use righting_scenario::bodies::ArmPart;
-use righting_scenario::file;
+use righting_scenario::file::{self, JointKind, JointType};
 
 use crate::bodies::{Axis, Solid};
 use crate::lineage::Lineage;
@@ -22,6 +26,8 @@ use crate::lineage::Lineage;
 pub(super) struct Reach {
     /// Of each solid: the joints that move it, from the base outward, and the R_j of each, m.
     of_solids: Vec<Vec<(usize, f64)>>,
+    /// Which joints slide.
+    slides: Vec<bool>,
 }
 
 impl Reach {
@@ -30,7 +36,11 @@ impl Reach {
             ArmPart::Body(body) => of_body(system, body, &solid.axis),
             ArmPart::Link(_) | ArmPart::Payload => of_row(system, &solid.axis),
         };
-        Self { of_solids: solids.iter().map(of_solid).collect() }
+        let kinds = system.joint_kinds();
+        Self {
+            of_solids: solids.iter().map(of_solid).collect(),
+            slides: kinds.into_iter().map(|kind| kind == JointKind::Prismatic).collect(),
+        }
     }
 }
 
@@ -59,8 +69,16 @@ fn of_body(system: &file::System, body: usize, axis: &Axis) -> Vec<(usize, f64)>
     };
     let mut reach = Vec::new();
     for body in lineage.way_from_base(body).into_iter().rev() {
-        reach.extend(lineage.joint(body).map(|joint| (joint, beyond_m)));
-        beyond_m += Vector3::from(bodies[body].joint.position_m.unwrap_or_default()).norm();
+        let joint = &bodies[body].joint;
+        let slides = joint.kind == JointType::Prismatic;
+        if slides {
+            let ends =
+                [joint.travel_min_m, joint.travel_max_m].map(|end| end.map_or(0.0, f64::abs));
+            beyond_m += ends[0].max(ends[1]);
+        }
+        let farthest = if slides { 1.0 } else { beyond_m };
+        reach.extend(lineage.joint(body).map(|joint| (joint, farthest)));
+        beyond_m += Vector3::from(joint.position_m.unwrap_or_default()).norm();
     }
     reach.reverse();
     reach
@@ -96,11 +114,19 @@ impl Stretch<'_> {
     /// max |p̈| Δt²/8.
     pub fn bend_m(&self, solid: usize) -> f64 {
         let reach = &self.reach.of_solids[solid];
-        let weighted = |values: &[f64]| -> f64 {
-            reach.iter().map(|(joint, reach_m)| values[*joint] * reach_m).sum()
-        };
-        let turning: f64 = reach.iter().map(|(joint, _)| self.rates[*joint]).sum();
-        let acceleration = weighted(self.accelerations) + turning * weighted(self.rates);
+        let (mut acceleration, mut turning, mut moving) = (0.0, 0.0, 0.0);
+        for (joint, reach_m) in reach {
+            let moved = self.rates[*joint] * reach_m;
+            acceleration += self.accelerations[*joint] * reach_m;
+            match self.reach.slides[*joint] {
+                true => moving += 2.0 * moved,
+                false => {
+                    turning += self.rates[*joint];
+                    moving += moved;
+                }
+            }
+        }
+        acceleration += turning * moving;
         acceleration * self.duration_s.powi(2) / 8.0
     }
 }

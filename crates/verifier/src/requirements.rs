@@ -1,7 +1,7 @@
 //! What a scenario asks of a plan, from the resolved file alone.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use righting_scenario::file;
+use righting_scenario::file::{self, JointKind};
 use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::clearances::Clearances;
@@ -32,6 +32,9 @@ pub(super) struct Requirements {
     pub end_posture: EndPosture,
     /// One a joint.
     pub joint_limits: Vec<JointLimits>,
+    /// Which joints slide.
+    pub slides: Vec<bool>,
+    pub size_m: f64,
     pub load_limits: LoadLimits,
     pub clearances: Clearances,
     pub cones: Vec<Cone>,
@@ -42,7 +45,7 @@ pub(super) struct Requirements {
     pub is_end_hard: bool,
 }
 
-/// What a joint may do.
+/// What a joint may do: rad and its rates, or m and its of one that slides.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointLimits {
     pub angle_min_rad: Option<f64>,
@@ -60,7 +63,8 @@ impl Requirements {
         let file = scenario.resolved();
         let system = scenario.resolved_system();
         let model = Model::new(system);
-        let start = start(&model, &file.initial);
+        let kinds = system.joint_kinds();
+        let start = start(&model, &kinds, &file.initial);
         let wheels = Wheels::new(file);
         let clearance_m = file.collision.clearance_m.unwrap_or(0.0);
         let clearances = Clearances::new(system, &model, clearance_m);
@@ -80,12 +84,14 @@ impl Requirements {
                 let attitude = UnitQuaternion::from_quaternion(attitude);
                 waypoints(&file.maneuver, &attitude, scenario.horizon())
             },
-            end_posture: EndPosture::new(file.end.as_ref()),
+            end_posture: EndPosture::new(file.end.as_ref(), &kinds),
             horizon: scenario.horizon(),
             surroundings: Surroundings::new(file.environment.as_ref()),
             may_drift: file.environment.is_some() && !wheels.work(),
             wheels,
             joint_limits: system.joints().iter().map(JointLimits::new).collect(),
+            slides: kinds.iter().map(|kind| *kind == JointKind::Prismatic).collect(),
+            size_m: size_m(system),
             load_limits: LoadLimits::new(system),
             cones: file.pointing.iter().map(Cone::new).collect(),
             reach: Reach::new(system, &clearances.solids),
@@ -133,27 +139,21 @@ fn size_m(system: &file::System) -> f64 {
 
 impl JointLimits {
     fn new(joint: &file::JointRow) -> Self {
-        let unlimited = f64::INFINITY;
+        let words = joint.words();
+        let si = |limit: Option<f64>| limit.map(|limit| words.to_si(limit));
         Self {
-            angle_min_rad: joint.angle_min_deg.map(f64::to_radians),
-            angle_max_rad: joint.angle_max_deg.map(f64::to_radians),
-            rate_max_rad_s: joint.rate_max_deg_s.unwrap_or(unlimited).to_radians(),
-            acceleration_max_rad_s2: joint
-                .acceleration_max_deg_s2
-                .unwrap_or(unlimited)
-                .to_radians(),
-            jerk_max_rad_s3: joint.jerk_max_deg_s3.map(f64::to_radians),
+            angle_min_rad: si(joint.min),
+            angle_max_rad: si(joint.max),
+            rate_max_rad_s: si(joint.rate_max).unwrap_or(f64::INFINITY),
+            acceleration_max_rad_s2: si(joint.acceleration_max).unwrap_or(f64::INFINITY),
+            jerk_max_rad_s3: si(joint.jerk_max),
         }
     }
 }
 
-fn start(model: &Model, initial: &file::Initial) -> Vec<f64> {
-    let radians = |degrees: &[f64]| degrees.iter().map(|angle| angle.to_radians()).collect();
-    let joint_angles: Vec<f64> = radians(&initial.joint_angles_deg);
-    let joint_rates: Vec<f64> = match &initial.joint_rates_deg_s {
-        Some(rates_deg_s) => radians(rates_deg_s),
-        None => vec![0.0; joint_angles.len()],
-    };
+fn start(model: &Model, kinds: &[JointKind], initial: &file::Initial) -> Vec<f64> {
+    let joint_angles = initial.joint_coordinates(kinds);
+    let joint_rates = initial.joint_rates(kinds);
     let [w, x, y, z] = initial.attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]);
     let held = State {
         position: Vector3::zeros(),

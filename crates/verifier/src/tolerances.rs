@@ -34,6 +34,7 @@ pub(super) struct Tolerances {
     pub joint_rate_rad_s: f64,
     pub at_nodes: LimitTolerances,
     pub between_nodes: LimitTolerances,
+    size_m: f64,
 }
 
 /// What torques and rates of a maneuver are compared with.
@@ -55,7 +56,7 @@ impl Measures {
     }
 }
 
-/// How far a limit may be passed.
+/// How far a limit may be passed. Of a joint that slides so many sizes of the system.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LimitTolerances {
     pub angle_rad: f64,
@@ -93,12 +94,22 @@ impl Tolerances {
             joint_rate_rad_s: JOINT_RAD * per_s,
             at_nodes: limits(AT_NODES, touching_m),
             between_nodes: limits(BETWEEN_NODES, cut_m),
+            size_m,
         }
+    }
+
+    /// A tolerance of joints that turn (rad, rad/s and on), and that of joints that slide (m, m/s and on).
+    pub fn of_kinds(&self, tolerance: f64) -> [f64; 2] {
+        [tolerance, tolerance * self.size_m]
     }
 
     /// How far each element of a state vector may be from the start that was asked for: as far as a joint
     /// angle, in its own unit.
-    pub fn of_start(&self, joints: usize) -> Vec<f64> {
+    pub fn of_start(&self, slides: &[bool]) -> Vec<f64> {
+        let of_joints = |tolerance: f64| {
+            let of_kinds = self.of_kinds(tolerance);
+            slides.iter().map(|slides| of_kinds[usize::from(*slides)]).collect::<Vec<_>>()
+        };
         let share = self.joint_angle_rad / self.attitude_rad;
         let position_m = self.position_m * share;
         let velocity_m_s = self.velocity_m_s * share;
@@ -108,8 +119,8 @@ impl Tolerances {
             vec![self.joint_angle_rad; 4],
             vec![velocity_m_s; 3],
             vec![rate_rad_s; 3],
-            vec![self.joint_angle_rad; joints],
-            vec![self.joint_rate_rad_s; joints],
+            of_joints(self.joint_angle_rad),
+            of_joints(self.joint_rate_rad_s),
         ]
         .concat()
     }

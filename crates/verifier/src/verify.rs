@@ -8,7 +8,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::goal::Goal;
 use crate::jerk;
-use crate::ledger::{Ledger, Subject, Worst};
+use crate::ledger::{Ledger, Worst};
 use crate::limits;
 use crate::loads;
 use crate::model::{Motion, State};
@@ -16,9 +16,10 @@ use crate::momentum;
 use crate::pointing;
 use crate::requirements::Requirements;
 use crate::simulation::Simulation;
-use crate::tolerances::{Measures, Tolerances, at_rest_deg_s};
+use crate::tolerances::{Measures, at_rest_deg_s};
 use crate::waypoints;
 use crate::wheels;
+use crate::worst_of_joints::WorstOfJoints;
 
 /// The most a slew may miss its target by, as the norm of the attitude error's vector part.
 pub const ATTITUDE_ERROR: f64 = 1e-3;
@@ -49,7 +50,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     let start = State::of_node(trajectory.start()).to_vec();
     let bodies = (&asked.model, &asked.surroundings, &asked.wheels);
     let simulation = Simulation::new(bodies, asked.horizon, &start, trajectory.intervals());
-    check_motion(&asked.tolerances, trajectory, &simulation, &mut ledger);
+    check_motion(&asked, trajectory, &simulation, &mut ledger);
     momentum::check(&asked, trajectory, &mut ledger);
     check_torques(&asked, trajectory, &mut ledger);
     limits::check(&asked, trajectory, &simulation, &mut ledger);
@@ -57,7 +58,7 @@ pub fn verify(scenario: &Scenario, trajectory: &Trajectory) -> Verification {
     loads::check(&asked, trajectory, &simulation, &mut ledger);
     wheels::check(&asked, trajectory, &mut ledger);
     pointing::check(&asked, trajectory, &simulation, &mut ledger);
-    waypoints::check(&asked, &simulation, &mut ledger);
+    waypoints::check(&asked, trajectory.intervals(), &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
     ledger.finish()
 }
@@ -72,13 +73,13 @@ pub fn simulate(scenario: &Scenario, plan: &Trajectory) -> (Terminal, Verificati
     let asked = Requirements::new(scenario);
     let mut ledger = Ledger::new(scenario.resolved_system(), Verification::default());
     if !shape_fits(&asked, plan, &mut ledger) {
-        return (asked.goal.reached(&State::of_node(plan.end())), ledger.finish());
+        return (asked.goal.reached(&State::of_node(plan.end()), &asked.slides), ledger.finish());
     }
     let bodies = (&asked.model, &asked.surroundings, &asked.wheels);
     let simulation = Simulation::new(bodies, asked.horizon, &asked.start, plan.intervals());
-    waypoints::check(&asked, &simulation, &mut ledger);
+    waypoints::check(&asked, plan.intervals(), &simulation, &mut ledger);
     check_end(&asked, &simulation.end(), &mut ledger);
-    (asked.goal.reached(&simulation.end()), ledger.finish())
+    (asked.goal.reached(&simulation.end(), &asked.slides), ledger.finish())
 }
 
 /// Joints, steps and times are the scenario's.
@@ -108,7 +109,7 @@ fn check_start(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledge
     let start = trajectory.start();
     let found = State::of_node(start).to_vec();
     let mut worst = Worst::new("start", "", 0.0);
-    let tolerances = asked.tolerances.of_start(asked.model.joint_count());
+    let tolerances = asked.tolerances.of_start(&asked.slides);
     for ((found, asked), tolerance) in found.iter().zip(&asked.start).zip(tolerances) {
         worst.at_most((found - asked).abs(), tolerance, None, Some(start.time_s));
     }
@@ -117,7 +118,7 @@ fn check_start(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledge
 
 /// Every node is where the second integration says.
 fn check_motion(
-    tolerances: &Tolerances,
+    Requirements { tolerances, slides, .. }: &Requirements,
     trajectory: &Trajectory,
     simulation: &Simulation,
     ledger: &mut Ledger,
@@ -127,8 +128,15 @@ fn check_motion(
     let mut angular_rate = Worst::new("angular rate mismatch", "rad/s", 0.0);
     let mut position = Worst::new("position mismatch", "m", 0.0);
     let mut velocity = Worst::new("velocity mismatch", "m/s", 0.0);
-    let mut joint_angle = Worst::new("joint angle mismatch", "rad", 0.0);
-    let mut joint_rate = Worst::new("joint rate mismatch", "rad/s", 0.0);
+    let of_joints = |turning: Worst, sliding: Worst| WorstOfJoints::new(slides, turning, sliding);
+    let mut joint_angle = of_joints(
+        Worst::new("joint angle mismatch", "rad", 0.0),
+        Worst::new("joint travel mismatch", "m", 0.0),
+    );
+    let mut joint_rate = of_joints(
+        Worst::new("joint rate mismatch", "rad/s", 0.0),
+        Worst::new("joint speed mismatch", "m/s", 0.0),
+    );
     for (node, truth) in trajectory.nodes().iter().zip(simulation.nodes()) {
         let time_s = Some(node.time_s);
         let found = State::of_node(node);
@@ -147,18 +155,20 @@ fn check_motion(
             (&mut joint_rate, found.joint_rates, truth.joint_rates, tolerances.joint_rate_rad_s),
         ];
         for (worst, found, truth, tolerance) in joints {
+            let allowed = tolerances.of_kinds(tolerance);
             for (joint, (found, truth)) in found.iter().zip(truth).enumerate() {
-                let subject = Some(Subject::Joint(joint));
-                worst.at_most((found - truth).abs(), tolerance, subject, time_s);
+                worst.within(joint, (found - truth).abs(), allowed, node.time_s);
             }
         }
     }
     ledger.report.attitude_mismatch = attitude.value();
     ledger.report.joint_mismatch = joint_angle.value();
     ledger.report.position_mismatch = position.value();
-    for worst in [norm, attitude, angular_rate, position, velocity, joint_angle, joint_rate] {
+    for worst in [norm, attitude, angular_rate, position, velocity] {
         ledger.add(worst);
     }
+    joint_angle.enter(ledger);
+    joint_rate.enter(ledger);
 }
 
 /// Torques and power are those of the nodes' motion.
@@ -181,16 +191,24 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
         );
         model.joint_torques(&state, &control, &outside, &mut motion, torques);
     }
-    let largest = |values: &mut dyn Iterator<Item = &f64>| {
+    // Forces and speeds of joints that slide are measured by the system's size.
+    let size = |joint: usize| if asked.slides[joint] { asked.size_m } else { 1.0 };
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
         values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
     };
-    let largest_n_m = largest(&mut torques.iter());
-    let fastest_rad_s =
-        largest(&mut trajectory.nodes().iter().flat_map(|node| &node.joint_rates_rad_s));
+    let of_joints = (0..joints).cycle();
+    let largest_n_m =
+        largest(&mut torques.iter().zip(of_joints.clone()).map(|(torque, k)| torque * size(k)));
+    let rates = trajectory.nodes().iter().flat_map(|node| &node.joint_rates_rad_s);
+    let fastest_rad_s = largest(&mut rates.zip(of_joints).map(|(rate, k)| rate / size(k)));
     let Measures { torque_n_m, rate_rad_s } = asked.measures;
     let tolerance_n_m = TORQUE * largest_n_m.max(NO_TORQUE * torque_n_m);
     let tolerance_w = tolerance_n_m * fastest_rad_s.max(rate_rad_s) * joints as f64;
-    let mut torque = Worst::new("joint torque mismatch", "N m", 0.0);
+    let mut torque = WorstOfJoints::new(
+        &asked.slides,
+        Worst::new("joint torque mismatch", "N m", 0.0),
+        Worst::new("joint force mismatch", "N", 0.0),
+    );
     let mut power = Worst::new("power mismatch", "W", 0.0);
     for (k, (node, torques)) in
         trajectory.nodes().iter().zip(torques.chunks_exact(joints)).enumerate()
@@ -199,22 +217,22 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
         if let Some(interval) = trajectory.intervals().get(k) {
             let pairs = interval.joint_torques_n_m.iter().zip(torques);
             for (joint, (found, truth)) in pairs.enumerate() {
-                let subject = Some(Subject::Joint(joint));
-                torque.at_most((found - truth).abs(), tolerance_n_m, subject, time_s);
+                let allowed = tolerance_n_m / size(joint);
+                torque.at_most(joint, (found - truth).abs(), allowed, node.time_s);
             }
         }
         let rates = &node.joint_rates_rad_s;
         let truth: f64 = torques.iter().zip(rates).map(|(torque, rate)| torque * rate).sum();
         power.at_most((node.power_w - truth).abs(), tolerance_w, None, time_s);
     }
-    ledger.add(torque);
+    torque.enter(ledger);
     ledger.add(power);
 }
 
 /// The maneuver does what was asked, by the second integration.
 fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
     let time_s = Some(asked.horizon.duration_s);
-    let reached = asked.goal.reached(end);
+    let reached = asked.goal.reached(end, &asked.slides);
     let mut single = |name, unit, value, limit| {
         let mut worst = Worst::new(name, unit, 0.0);
         worst.at_most(value, limit, None, time_s);
@@ -236,5 +254,10 @@ fn check_end(asked: &Requirements, end: &State<'_>, ledger: &mut Ledger) {
     };
     single("angular rate at the end", "deg/s", reached.angular_rate_deg_s, base_rate);
     single("joint rate at the end", "deg/s", reached.joint_rate_deg_s, joint_rate);
-    asked.end_posture.check(end, asked.horizon.duration_s, ledger);
+    if let Some(speed_m_s) = reached.joint_speed_m_s {
+        let limit_m_s = joint_rate.to_radians() * asked.size_m;
+        single("joint speed at the end", "m/s", speed_m_s, limit_m_s);
+    }
+    let joints = (&asked.slides[..], asked.size_m);
+    asked.end_posture.check(end, joints, asked.horizon.duration_s, ledger);
 }

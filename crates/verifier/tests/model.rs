@@ -147,10 +147,18 @@ proptest! {
         bodies in prop::option::of(bodies()),
     ) {
         let mut resolved = scenario.resolved().clone();
-        let degrees = |values: &[f64]| values.iter().map(|x| x.to_degrees()).collect::<Vec<_>>();
+        let kinds = scenario.system().model.joint_kinds();
+        let [angles_deg, rates_deg_s] = [0, 1].map(|k| {
+            let angles = file::of_kind(&kinds, file::JointKind::Revolute, &sample.joints[k]);
+            angles.into_iter().map(f64::to_degrees).collect::<Vec<_>>()
+        });
+        let [travels_m, speeds_m_s] =
+            [0, 1].map(|k| file::of_kind(&kinds, file::JointKind::Prismatic, &sample.joints[k]));
         resolved.initial = file::Initial {
-            joint_angles_deg: degrees(&sample.joints[0]),
-            joint_rates_deg_s: Some(degrees(&sample.joints[1])),
+            joint_angles_deg: angles_deg,
+            joint_rates_deg_s: Some(rates_deg_s),
+            joint_travels_m: travels_m,
+            joint_speeds_m_s: Some(speeds_m_s),
             angular_rate_deg_s: Some(sample.angular_rate.map(f64::to_degrees)),
             attitude: Some(sample.attitude),
         };

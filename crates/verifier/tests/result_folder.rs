@@ -19,7 +19,9 @@ fn folder() -> TempDir {
     let solution = solution_of(&scenario, &trajectory);
     let folder = tempfile::tempdir().unwrap();
     solution.write_json(&folder.path().join(SOLUTION_FILE)).unwrap();
-    trajectory.write_csv(&folder.path().join(TRAJECTORY_FILE)).unwrap();
+    trajectory
+        .write_csv(&scenario.system().model.joint_kinds(), &folder.path().join(TRAJECTORY_FILE))
+        .unwrap();
     folder
 }
 

@@ -52,6 +52,30 @@ fn a_pause_at_a_waypoint_is_held_and_at_rest() {
     assert!(record.attitude_error < 1e-9 && record.joint_rate_deg_s < 1e-9, "{record:?}");
 }
 
+/// Within a step whose acceleration goes from a to −a a joint goes from rest to rest: only between the nodes does
+/// it move.
+#[test]
+fn a_joint_that_moves_between_the_nodes_of_a_dwell_is_caught() {
+    let (scenario, plan) = paused();
+    let asked = by_way_of(&scenario, &plan, 40, 20);
+    let step_s = asked.horizon().step_s();
+    let mut intervals = plan.intervals().to_vec();
+    for interval in &mut intervals {
+        interval.joint_jerks_rad_s3 = vec![0.0; 4];
+    }
+    let most = 0.05;
+    for (interval, acceleration) in intervals[48..50].iter_mut().zip([most, -most]) {
+        interval.joint_accelerations_rad_s2[1] = acceleration;
+        interval.joint_jerks_rad_s3[1] = -2.0 * acceleration / step_s;
+    }
+    let [_, _, joints] =
+        checks(&asked, &Trajectory::new(plan.nodes().to_vec(), intervals).unwrap());
+    // The rate is a (t − t²/T), looked at after 0.4 T.
+    let expected_deg_s = (most * 0.24 * step_s).to_degrees();
+    assert!((joints.value - expected_deg_s).abs() < 1e-6 * expected_deg_s, "{joints}");
+    assert!(!joints.passed, "{joints}");
+}
+
 #[test]
 fn a_waypoint_that_is_missed_or_left_too_early_is_caught() {
     let (scenario, plan) = paused();

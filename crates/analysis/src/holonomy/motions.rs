@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
+use righting_multibody::JointKind;
 use righting_scenario::halton::Halton;
 use righting_scenario::{JointLimits, SystemDescription};
 
@@ -194,7 +195,11 @@ fn range(limits: &JointLimits, start: f64) -> [f64; 2] {
     [or(limits.angle_min_rad, start - PI), or(limits.angle_max_rad, start + PI)]
 }
 
-/// How far a joint can sway to both sides, at most half a turn, rad.
+/// How far a joint can sway to both sides, at most half a turn, rad; a joint that slides as far as it goes, m.
 fn room(limits: &JointLimits, middle: f64) -> f64 {
-    (limits.angle_max_rad - middle).min(middle - limits.angle_min_rad).clamp(0.0, PI)
+    let room = (limits.angle_max_rad - middle).min(middle - limits.angle_min_rad).max(0.0);
+    match limits.kind {
+        JointKind::Revolute => room.min(PI),
+        JointKind::Prismatic => room,
+    }
 }

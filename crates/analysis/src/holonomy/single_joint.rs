@@ -8,9 +8,9 @@ use righting_scenario::SystemDescription;
 
 use super::transport::{self, JointPath};
 
-/// Longest step along the curve, rad of the joint.
+/// Longest step along the curve, rad of the joint; of one that slides in sizes of the system.
 const STEP_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
-/// No joint is followed for more turns than this, either way.
+/// No joint is followed for more turns than this, either way; none that slides for more sizes than its radians.
 const MOST_TURNS: f64 = 20.0;
 /// Axes nearer to each other than this count once, rad.
 const SAME_AXIS_RAD: f64 = 0.01;
@@ -45,7 +45,7 @@ impl JointPath for Turned<'_> {
 
 impl SingleJoint {
     /// From the posture `start_rad` (one angle a joint) as far as `joint`'s limits go, but no further than
-    /// `travel_rad` either way.
+    /// `travel_rad` either way (m where it slides).
     ///
     /// # Panics
     /// `start_rad` does not have one angle a joint, or there is no such joint.
@@ -57,13 +57,14 @@ impl SingleJoint {
     ) -> Self {
         let limits = &system.joint_limits[joint];
         let start = start_rad[joint];
-        let most = MOST_TURNS * TAU;
+        let unit = 1.0 / system.radians_a_unit()[joint];
+        let (most, step) = (MOST_TURNS * TAU * unit, STEP_RAD * unit);
         let [down, up] = [start - limits.angle_min_rad, limits.angle_max_rad - start]
             .map(|room| room.clamp(0.0, travel_rad.max(0.0)));
         let path = Turned { posture: start_rad, joint };
         let side = |room: f64, way: f64| -> Vec<Quaternion<f64>> {
             let room = room.min(most);
-            let steps = (room / STEP_RAD).ceil() as usize;
+            let steps = (room / step).ceil() as usize;
             let at = |k: usize| start + way * room * k as f64 / steps as f64;
             let mut attitude = Quaternion::identity();
             let mut passed = Vec::with_capacity(steps);

@@ -1,6 +1,7 @@
 //! About which axes an arm can turn its base.
 
 use nalgebra::{Matrix3, Vector3};
+use righting_multibody::JointKind;
 use righting_scenario::SystemDescription;
 use righting_scenario::halton::Halton;
 
@@ -29,10 +30,12 @@ pub struct TurnableAxes {
     pub effective_joints: Vec<usize>,
     /// Unit vectors, body axes: the base turns most about the first, least about the last.
     pub principal_axes: [Vector3<f64>; 3],
-    /// How far the base turns about each principal axis a radian of an effective joint: the root mean
+    /// How far the base turns about each principal axis a radian of an effective joint, or a size of the
+    /// system where it slides: the root mean
     /// square of A over the joints' ranges, rad/rad, largest first.
     pub singular_values: [f64; 3],
-    /// Whether there are several effective joints, and their axes are parallel in every posture.
+    /// Whether there are several effective joints, all of which turn, and their axes are parallel in every
+    /// posture.
     pub are_joints_parallel: bool,
     /// Σ_i max_q |A_i| q̇max_i: no motion of the joints turns the base faster, as far as postures were
     /// looked at, rad/s.
@@ -49,8 +52,14 @@ impl TurnableAxes {
         let (locked_joints, moving): (Vec<usize>, Vec<usize>) = (0..joints).partition(is_locked);
         let postures: Vec<Vec<f64>> =
             Halton::new(joints).take(POSTURES).map(|unit| system.joint_angles_at(&unit)).collect();
+        // Joints that slide count by the system's size.
+        let counts = system.radians_a_unit();
+        let connection = |posture: &[f64]| -> Vec<Vector3<f64>> {
+            let columns = connection(&system.model, posture).into_iter().zip(&counts);
+            columns.map(|(column, counts)| column / *counts).collect()
+        };
         let maps: Vec<Vec<Vector3<f64>>> =
-            postures.iter().map(|posture| connection(&system.model, posture)).collect();
+            postures.iter().map(|posture| connection(posture)).collect();
         let most = |joint: usize, length: &dyn Fn(&Vector3<f64>) -> f64| {
             maps.iter().map(|map| length(&map[joint])).fold(0.0, f64::max)
         };
@@ -63,8 +72,8 @@ impl TurnableAxes {
             postures.iter().take(POSTURES_MOVED).all(|posture| {
                 let moved = |way: f64| {
                     let mut there = posture.clone();
-                    there[joint] += way * MOVED_RAD;
-                    connection(&system.model, &there)
+                    there[joint] += way * MOVED_RAD / counts[joint];
+                    connection(&there)
                 };
                 let (after, before) = (moved(1.0), moved(-1.0));
                 moving.iter().all(|&other| (after[other] - before[other]).norm() <= least)
@@ -83,12 +92,14 @@ impl TurnableAxes {
         let first = principal_axes[0];
         let across = |a: &Vector3<f64>| (a - first * first.dot(a)).norm();
         let fastest = |length: &dyn Fn(&Vector3<f64>) -> f64| {
-            let rates = effective_joints
-                .iter()
-                .map(|&joint| most(joint, length) * system.joint_limits[joint].rate_max_rad_s);
+            let rates = effective_joints.iter().map(|&joint| {
+                most(joint, length) * system.joint_limits[joint].rate_max_rad_s * counts[joint]
+            });
             rates.sum()
         };
+        let turns = |joint: &usize| system.joint_limits[*joint].kind == JointKind::Revolute;
         let are_joints_parallel = effective_joints.len() > 1
+            && effective_joints.iter().all(turns)
             && postures.iter().all(|posture| {
                 let axes = system.model.kinematics(posture).joint_axes;
                 let mut pairs = effective_joints.windows(2);

@@ -55,24 +55,29 @@ class Simulation:
         w, *vector = ATTITUDES[node] * (1 if ATTITUDES[node][0] >= 0 else -1)
         hub.sigma_BNInit = column(np.array(vector) / (1 + w))
         hub.omega_BN_BInit = column(ANGULAR_RATES[node])
-        self.arm = spinningBodyNDOFStateEffector.SpinningBodyNDOFStateEffector()
-        self.arm.ModelTag = "arm"
-        for body, angle, rate in zip(BODIES, ANGLES[node], RATES[node]):
-            link = spinningBodyNDOFStateEffector.SpinningBody()
-            link.setMass(body["mass_kg"])
-            link.setISPntSc_S(body["inertia_kg_m2"])
-            link.setR_ScS_S(column(body["center_m"]))
-            link.setR_SP_P(column(body["position_m"]))
-            link.setDCM_S0P(body["from_parent"])
-            link.setSHat_S(column([0, 0, 1]))
-            link.setThetaInit(angle)
-            link.setThetaDotInit(rate)
-            self.arm.addSpinningBody(link)
-        self.spacecraft.addStateEffector(self.arm)
-        self.motors = messaging.ArrayMotorTorqueMsg()
-        self.arm.motorTorqueInMsg.subscribeTo(self.motors)
-        # The arm reads its torques before the spacecraft moves.
-        self.simulation.AddModelToTask("task", self.arm, 2)
+        self.arms, self.motors, first = [], [], 0
+        for bodies in ARMS:
+            arm = spinningBodyNDOFStateEffector.SpinningBodyNDOFStateEffector()
+            arm.ModelTag = f"arm_{len(self.arms) + 1}"
+            for joint, body in enumerate(bodies, first):
+                link = spinningBodyNDOFStateEffector.SpinningBody()
+                link.setMass(body["mass_kg"])
+                link.setISPntSc_S(body["inertia_kg_m2"])
+                link.setR_ScS_S(column(body["center_m"]))
+                link.setR_SP_P(column(body["position_m"]))
+                link.setDCM_S0P(body["from_parent"])
+                link.setSHat_S(column([0, 0, 1]))
+                link.setThetaInit(ANGLES[node][joint])
+                link.setThetaDotInit(RATES[node][joint])
+                arm.addSpinningBody(link)
+            self.spacecraft.addStateEffector(arm)
+            motors = messaging.ArrayMotorTorqueMsg()
+            arm.motorTorqueInMsg.subscribeTo(motors)
+            # The arms read their torques before the spacecraft moves.
+            self.simulation.AddModelToTask("task", arm, 2)
+            self.arms.append(arm)
+            self.motors.append((motors, slice(first, first + len(bodies))))
+            first += len(bodies)
         self.simulation.AddModelToTask("task", self.spacecraft, 1)
         self.simulation.InitializeSimulation()
         self.simulation.ConfigureStopTime(0)
@@ -80,20 +85,22 @@ class Simulation:
 
     def step(self, torques):
         """One step with these torques."""
-        self.motors.write(messaging.ArrayMotorTorqueMsgPayload(motorTorque=list(torques)))
+        for motors, joints in self.motors:
+            motors.write(messaging.ArrayMotorTorqueMsgPayload(motorTorque=list(torques[joints])))
         self.now_ns += self.step_ns
         self.simulation.ConfigureStopTime(self.now_ns)
         self.simulation.ExecuteSimulation()
 
     def angles(self):
-        return self.state(self.arm.getNameOfThetaState())
+        return self.state([arm.getNameOfThetaState() for arm in self.arms])
 
     def rates(self):
-        return self.state(self.arm.getNameOfThetaDotState())
+        return self.state([arm.getNameOfThetaDotState() for arm in self.arms])
 
-    def state(self, name):
-        """Of the joints; the arm's messages are a step behind."""
-        return np.array(self.spacecraft.dynManager.getStateObject(name).getState()).reshape(-1)
+    def state(self, names):
+        """Of the joints; the arms' messages are a step behind."""
+        states = [self.spacecraft.dynManager.getStateObject(name).getState() for name in names]
+        return np.concatenate([np.array(state).reshape(-1) for state in states])
 
     def attitude(self):
         """Body to inertial, scalar first."""

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use nalgebra::{Matrix3, SymmetricEigen};
-use righting_multibody::{Placement, RigidBody};
+use righting_multibody::{JointKind, Placement, RigidBody};
 use righting_results::{Solution, Trajectory};
 use righting_scenario::Scenario;
 
@@ -18,7 +18,7 @@ use crate::xml::number;
 const LEAST: f64 = 1e-15;
 
 /// A Python script that builds the system in Basilisk, a spacecraft with a
-/// `spinningBodyNDOFStateEffector`, and flies the plan by its torques alone, nothing correcting them;
+/// `spinningBodyNDOFStateEffector` for every arm, and flies the plan by its torques alone, nothing correcting them;
 /// it prints how far the end is from the plan's, and how far the largest torques are from those that
 /// Basilisk finds for the plan's accelerations. Everything it needs is in it. `maneuver` says in words
 /// what is flown.
@@ -30,7 +30,8 @@ const LEAST: f64 = 1e-15;
 ///
 /// # Errors
 /// [`ExportError::Motion`] for a motion that cannot be followed, [`ExportError::Branches`] for joints that
-/// branch, [`ExportError::Surroundings`] for a scenario with wheels or an environment.
+/// branch beyond the base, [`ExportError::Slides`] for joints that slide, [`ExportError::Surroundings`] for a
+/// scenario with wheels or an environment.
 pub fn basilisk(
     scenario: &Scenario,
     solution: &Solution,
@@ -41,12 +42,18 @@ pub fn basilisk(
         return Err(ExportError::Surroundings);
     }
     let flight = Flight::new(scenario, trajectory)?;
-    let follows = |(index, hinge): (usize, &Hinge)| hinge.parent == index.checked_sub(1);
-    if !flight.arm.hinges.iter().enumerate().all(follows) {
+    let goes_on = |(index, hinge): (usize, &Hinge)| {
+        hinge.parent.is_none() || hinge.parent == index.checked_sub(1)
+    };
+    if !flight.arm.hinges.iter().enumerate().all(goes_on) {
         return Err(ExportError::Branches);
     }
+    let mut moving = flight.arm.hinges.iter().filter(|hinge| hinge.held_at.is_none());
+    if let Some(hinge) = moving.find(|hinge| hinge.kind == JointKind::Prismatic) {
+        return Err(ExportError::Slides { joint: hinge.joint.clone() });
+    }
     let mut constants = Constants::new(&flight, solution, trajectory, maneuver);
-    let (base, bodies) = turning_bodies(&flight.arm);
+    let (base, arms) = turning_bodies(&flight.arm);
     let attitudes = trajectory.nodes().iter().flat_map(|node| node.attitude);
     constants.array("ATTITUDES", &[trajectory.nodes().len(), 4], attitudes);
     let rates = trajectory.nodes().iter().flat_map(|node| node.angular_rate_rad_s);
@@ -54,25 +61,37 @@ pub fn basilisk(
     constants.value("BASE", &body(&base, None));
     let mut list = String::from("[\n");
     let size_m = scenario.system().model.size_m();
-    for (placement, mass) in &bodies {
-        let mass = with_moments(mass, size_m);
-        writeln!(list, "    {},", body(&mass, Some(placement)))
-            .expect("a string takes all that is written to it");
+    let mut line = |text: &str| {
+        writeln!(list, "    {text}").expect("a string takes all that is written to it");
+    };
+    for bodies in &arms {
+        line("[");
+        for (placement, mass) in bodies {
+            line(&format!("    {},", body(&with_moments(mass, size_m), Some(placement))));
+        }
+        line("],");
     }
     list.push(']');
-    constants.value("BODIES", &list);
+    constants.value("ARMS", &list);
     Ok(constants.into_script(include_str!("basilisk.py")))
 }
 
-/// The base and the bodies on joints that turn, each with what is fixed to it; a body's frame is
-/// placed in that of the body before.
-fn turning_bodies(arm: &Arm) -> (RigidBody, Vec<(Placement, RigidBody)>) {
+/// A body with its frame's place in that of the body before.
+type Placed = (Placement, RigidBody);
+
+/// The base and, of every arm, the bodies on joints that turn, each with what is fixed to it.
+fn turning_bodies(arm: &Arm) -> (RigidBody, Vec<Vec<Placed>>) {
     let mut base = arm.base;
-    let mut bodies: Vec<(Placement, RigidBody)> = Vec::new();
+    let mut arms: Vec<Vec<Placed>> = Vec::new();
     let mut end = Placement::identity();
     for hinge in &arm.hinges {
+        if hinge.parent.is_none() {
+            arms.push(Vec::new());
+            end = Placement::identity();
+        }
+        let Some(bodies) = arms.last_mut() else { continue };
         end = end.then(&hinge.placed());
-        match (hinge.held_rad, bodies.last_mut()) {
+        match (hinge.held_at, bodies.last_mut()) {
             (None, _) => {
                 bodies.push((end, hinge.body));
                 end = Placement::identity();
@@ -81,7 +100,8 @@ fn turning_bodies(arm: &Arm) -> (RigidBody, Vec<(Placement, RigidBody)>) {
             (Some(_), None) => base = base.joined(&hinge.body, &end),
         }
     }
-    (base, bodies)
+    arms.retain(|bodies| !bodies.is_empty());
+    (base, arms)
 }
 
 /// The body with no principal moment below the least that is told from zero.

@@ -34,7 +34,7 @@ def main():
     print(f"{NAME}: {MANEUVER}")
     print(f"{outcome['simulator']}, {outcome['integrator']}, steps of {1000 * outcome['step_s']:.3g} ms")
     print(f"attitude error at the end: {outcome['attitude_error_rad']:.1e} rad")
-    print(f"joint error at the end:    {outcome['joint_error_rad']:.1e} rad")
+    print(f"joint error at the end:    {outcome['joint_error_rad']:.1e} {JOINT_UNIT}")
     print(f"peak torque difference:    {outcome['peak_torque_difference_percent']:.1e} %")
     if arguments.track:
         print(f"torque for tracking:       {outcome['tracking_torque_percent']:.1e} %")

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use righting_multibody::JointKind;
 use righting_results::{Solution, Trajectory};
 
 use super::{COEFFICIENTS, Flight};
@@ -33,6 +34,12 @@ impl Constants {
         constants.text("SCENARIO_SHA256", &solution.scenario_sha256);
         let names = flight.names().map(quoted);
         constants.value("JOINTS", &format!("[{}]", names.collect::<Vec<_>>().join(", ")));
+        let kinds = flight.joints.iter().map(|joint| flight.arm.hinges[joint.hinge].kind);
+        let unit = match kinds.into_iter().any(|kind| kind == JointKind::Prismatic) {
+            true => "rad or m",
+            false => "rad",
+        };
+        constants.text("JOINT_UNIT", unit);
         constants.value("END_ATTITUDE", &row(trajectory.end().attitude));
         constants.array("TIMES", &[steps + 1], nodes.iter().map(|node| node.time_s));
         let angles = flight.angles(nodes.iter().map(|node| &node.joint_angles_rad));

@@ -15,11 +15,20 @@ struct Body {
     parent: Option<usize>,
     position: Vector,
     rotation: Rotation,
-    /// Axis, a point on it, both in the body at angle zero, and the joint's index.
-    joints: Vec<(Vector, Vector, usize)>,
+    /// In the order in which they move the body.
+    joints: Vec<Joint>,
     mass: f64,
     center: Vector,
     inertia: Matrix3<f64>,
+}
+
+struct Joint {
+    /// In the body with the joint at zero.
+    axis: Vector,
+    /// A point on the axis, in the same frame.
+    point: Vector,
+    index: usize,
+    slides: bool,
 }
 
 /// Sums over all bodies; the base's frame is the frame of reference.
@@ -59,8 +68,12 @@ impl Tree {
             let rpy = vector(origin, "rpy");
             body.rotation = Rotation::from_euler_angles(rpy.x, rpy.y, rpy.z);
             if joint.attribute("type") != Some("fixed") {
-                let axis = vector(child(joint, "axis"), "xyz");
-                body.joints.push((axis, Vector::zeros(), joint_index(joint)));
+                body.joints.push(Joint {
+                    axis: vector(child(joint, "axis"), "xyz"),
+                    point: Vector::zeros(),
+                    index: joint_index(joint),
+                    slides: joint.attribute("type") == Some("prismatic"),
+                });
             }
         }
         Self { bodies }
@@ -121,7 +134,7 @@ impl Tree {
 }
 
 impl Body {
-    /// The body on its parent, turned about one axis after the other.
+    /// The body on its parent, moved by one joint after the other.
     fn moved(&self, parent: &Motion, q: &[f64], qdot: &[f64]) -> Motion {
         let arm = parent.rotation * self.position;
         let mut motion = Motion {
@@ -130,8 +143,14 @@ impl Body {
             velocity: parent.velocity + parent.rate.cross(&arm),
             rate: parent.rate,
         };
-        for (axis, point, joint) in &self.joints {
+        for Joint { axis, point, index: joint, slides } in &self.joints {
             let axis = motion.rotation * axis;
+            if *slides {
+                let travel = axis * q[*joint];
+                motion.position += travel;
+                motion.velocity += motion.rate.cross(&travel) + axis * qdot[*joint];
+                continue;
+            }
             let to_anchor = motion.rotation * point;
             let anchor = motion.position + to_anchor;
             let anchor_velocity = motion.velocity + motion.rate.cross(&to_anchor);
@@ -173,8 +192,10 @@ fn mjcf_body(node: Node<'_, '_>, parent: Option<usize>, bodies: &mut Vec<Body>) 
     let axes = quaternion(inertial);
     let principal = Matrix3::from_diagonal(&vector(inertial, "diaginertia"));
     let joints = node.children().filter(|child| child.has_tag_name("joint")).map(|joint| {
-        assert_eq!(joint.attribute("type"), Some("hinge"));
-        (vector(joint, "axis"), vector(joint, "pos"), joint_index(joint))
+        let slides = joint.attribute("type") == Some("slide");
+        assert!(slides || joint.attribute("type") == Some("hinge"));
+        let [axis, point] = ["axis", "pos"].map(|name| vector(joint, name));
+        Joint { axis, point, index: joint_index(joint), slides }
     });
     let is_base = parent.is_none();
     bodies.push(Body {

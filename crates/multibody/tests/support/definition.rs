@@ -124,6 +124,10 @@ fn poses_of_bodies<T: Scalar>(bodies: &[JointedBody], q: &[T]) -> Vec<Pose<T>> {
             let joint = parent.then(rotation.map(T::from), position_m.map(T::from));
             poses[index] = Some(match (&body.joint, angles[index]) {
                 (BodyJoint::Revolute(axis), Some(angle)) => joint.about(axis, *angle),
+                (BodyJoint::Prismatic(axis), Some(travel)) => {
+                    let along = axis.normalize().map(|entry| *travel * entry);
+                    joint.then(Matrix3::identity(), along)
+                }
                 _ => joint,
             });
         }

@@ -111,7 +111,11 @@ fn joint() -> impl Strategy<Value = BodyJoint> {
         Just(-2.0 * Vector3::z()),
         vector(1.0).prop_filter("a direction", |axis| axis.norm() > 1e-3),
     ];
-    prop_oneof![1 => Just(BodyJoint::Fixed), 4 => axis.prop_map(BodyJoint::Revolute)]
+    prop_oneof![
+        1 => Just(BodyJoint::Fixed),
+        4 => axis.clone().prop_map(BodyJoint::Revolute),
+        2 => axis.prop_map(BodyJoint::Prismatic),
+    ]
 }
 
 fn rigid_body() -> impl Strategy<Value = RigidBody> {

@@ -4,12 +4,15 @@
 //! things at its beginning and at its end, less what their points can be off the straight way between:
 //! max |p̈| Δt²/8 for each (the error of linear interpolation). With R_j how far a point can be from joint j,
 //! |p̈| ≤ Σ R_j |q̈_j| + (Σ |q̇_j|)(Σ R_j |q̇_j|). Where that is not enough, the stretch is
-//! halved, so that links that pass through each other between two places are found.
+//! halved, so that links that pass through each other between two places are found. A joint that slides has an
+//! R_j of 1, does not count in Σ |q̇_j|, and counts twice in what that multiplies: it adds q̈_j e_j and
+//! 2 q̇_i q̇_j e_i × e_j for every joint i that turns it.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use righting_multibody::{Core, Cuboid, Kinematics, Segment};
+use righting_multibody::{Core, Cuboid, JointKind, Kinematics, Segment};
+use righting_scenario::JointLimits;
 use righting_scenario::bodies::KeepOut;
 use righting_scenario::collision::{Other, Pair};
 
@@ -34,6 +37,8 @@ pub(super) struct Approach<'a> {
     /// Of each clearance, R_j of what it has of the arm: of the outer thing, then of the inner one if that
     /// moves too; of each joint that moves it.
     reach: Vec<Vec<Reach>>,
+    /// Which joints slide.
+    slides: Vec<bool>,
     /// The arm where the step ends that was followed last.
     posture: Option<Kinematics<f64>>,
     looks_left: usize,
@@ -50,11 +55,18 @@ struct Moment {
 }
 
 impl<'a> Approach<'a> {
-    pub(super) fn new(clearances: &'a Clearances, lacking: f64) -> Self {
+    pub(super) fn new(
+        clearances: &'a Clearances,
+        joint_limits: &[JointLimits],
+        lacking: f64,
+    ) -> Self {
+        let farthest: Vec<f64> = joint_limits.iter().map(JointLimits::farthest).collect();
+        let places = 0..clearances.len();
         Self {
             clearances,
             lacking,
-            reach: (0..clearances.len()).map(|place| reach(clearances, place)).collect(),
+            reach: places.map(|place| reach(clearances, place, &farthest)).collect(),
+            slides: joint_limits.iter().map(|of| of.kind == JointKind::Prismatic).collect(),
             posture: None,
             looks_left: MOST_LOOKS,
         }
@@ -138,8 +150,13 @@ impl<'a> Approach<'a> {
             for &(joint, reach) in reach {
                 let rate = step.largest_rate(joint, [from, to]);
                 sums[0] += reach * step.largest_acceleration(joint, [from, to]);
-                sums[1] += rate;
-                sums[2] += reach * rate;
+                match self.slides[joint] {
+                    true => sums[2] += 2.0 * reach * rate,
+                    false => {
+                        sums[1] += rate;
+                        sums[2] += reach * rate;
+                    }
+                }
             }
             (sums[0] + sums[1] * sums[2]) * (to - from).powi(2) / 8.0
         };
@@ -229,10 +246,10 @@ impl Moment {
     }
 }
 
-/// R_j of what a clearance has of the arm.
-fn reach(clearances: &Clearances, place: usize) -> Vec<Reach> {
+/// R_j of what a clearance has of the arm, the coordinates of joints that slide being no larger than `farthest`.
+fn reach(clearances: &Clearances, place: usize, farthest: &[f64]) -> Vec<Reach> {
     let pair = clearances.pair(place);
-    let reach = |core: &Core| clearances.system.reach_m(core);
+    let reach = |core: &Core| clearances.system.levers(core, farthest);
     match &pair.other {
         Other::Solid(inboard) => vec![reach(&pair.solid.core), reach(&inboard.core)],
         Other::Center | Other::KeepOut(_) => vec![reach(&pair.solid.core)],

@@ -83,6 +83,7 @@ impl FormulatedManeuver {
         let wheels = coordinates.wheel_set().working();
         state_bounds.lower[coordinates.wheels()].fill(-1.0);
         state_bounds.upper[coordinates.wheels()].fill(1.0);
+        let counts = scenario.system().radians_a_unit();
         let controls: Vec<f64> = limits
             .iter()
             .map(|limits| match coordinates.has_jerk() {
@@ -118,7 +119,8 @@ impl FormulatedManeuver {
         let problem = ControlProblem::new(states, controls.len(), move |x, u| dynamics.rates(x, u))
             .free_initial_states(&free)
             .running_cost(move |x, u, step| {
-                let of_joints = effort(&running, x, u, step.length) * running.duration_share(x);
+                let of_joints =
+                    effort(&running, &counts, x, u, step.length) * running.duration_share(x);
                 let of_wheels = running.wheel_set().sum_of_squares(running.wheel_rates(u))
                     * running.duration_share(x);
                 of_joints * control + of_wheels * wheel_torque + waypoints.cost(&running, x, step)
@@ -160,14 +162,17 @@ impl FormulatedManeuver {
 /// The mean of ‖q̈‖² over a step of length `h` in the time of the grid; of a locked joint, whose control does
 /// nothing, that of its control. Where the jerk is held it is Σ q̈² + q̈ h q⃛ + h² q⃛²/3: no other weight on
 /// the jerk is needed to determine it.
-fn effort(coordinates: &Coordinates, x: &[Expr], u: &[Expr], h: Expr) -> Expr {
+///
+/// A unit of a joint's coordinate counts so many radians.
+fn effort(coordinates: &Coordinates, counts: &[f64], x: &[Expr], u: &[Expr], h: Expr) -> Expr {
     let u = &u[..u.len() - coordinates.wheels().len()];
     if !coordinates.has_jerk() {
-        return sum_of_squares(u);
+        return sum_of_squares(&counted(u, counts));
     }
     let h = h * coordinates.duration_share(x);
-    let accelerations = coordinates.accelerations(x, u);
-    accelerations.iter().zip(u).fold(Expr::constant(0.0), |sum, (&begins, &jerk)| {
+    let accelerations = counted(&coordinates.accelerations(x, u), counts);
+    let jerks = counted(u, counts);
+    accelerations.iter().zip(&jerks).fold(Expr::constant(0.0), |sum, (&begins, &jerk)| {
         let gained = h * jerk;
         sum + begins * begins + begins * gained + gained * gained * (1.0 / 3.0)
     })
@@ -179,6 +184,8 @@ struct Goal {
     joint_angles_rad: Vec<f64>,
     /// The system where its base may drift: then it is the rate beyond that drift that shall be zero.
     drifting: Option<System>,
+    /// What a unit of each joint's coordinate counts, rad.
+    counts: Vec<f64>,
 }
 
 impl Goal {
@@ -192,6 +199,7 @@ impl Goal {
             attitude,
             joint_angles_rad: scenario.desired_joint_angles_rad(),
             drifting: scenario.may_drift().then(|| scenario.system().model.clone()),
+            counts: scenario.system().radians_a_unit(),
         }
     }
 
@@ -216,8 +224,8 @@ impl Goal {
             (weights.attitude, sum_of_squares(attitude_error.as_slice())),
             (weights.velocity, sum_of_squares(state.velocity.as_slice())),
             (weights.angular_rate, sum_of_squares(rate.as_slice())),
-            (weights.joint_angle, sum_of_squares(&joint_errors)),
-            (weights.joint_rate, sum_of_squares(&state.joint_rates)),
+            (weights.joint_angle, sum_of_squares(&counted(&joint_errors, &self.counts))),
+            (weights.joint_rate, sum_of_squares(&counted(&state.joint_rates, &self.counts))),
         ];
         // A term without weight is left out, not multiplied by zero: what it reads stays passive.
         terms
@@ -232,6 +240,12 @@ fn joined(mut first: ComponentBounds, second: ComponentBounds) -> ComponentBound
     first.lower.extend(second.lower);
     first.upper.extend(second.upper);
     first
+}
+
+/// What joints' values count in radians.
+fn counted<T: Scalar>(values: &[T], counts: &[f64]) -> Vec<T> {
+    let listed = values.iter().zip(counts);
+    listed.map(|(&value, &counts)| if counts == 1.0 { value } else { value * counts }).collect()
 }
 
 fn sum_of_squares<T: Scalar>(values: &[T]) -> T {

@@ -9,7 +9,7 @@ use righting_ocp::{Expr, StepTime};
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
 
-use super::{Coordinates, sum_of_squares};
+use super::{Coordinates, counted, sum_of_squares};
 use crate::scaling::WaypointWeights;
 
 /// By how much of a step nodes are taken as earlier, so that one of two that are as near is the nearest.
@@ -20,6 +20,8 @@ const TIE: f64 = 1e-6;
 pub(super) struct Waypoints {
     stops: Vec<Stop>,
     weights: WaypointWeights,
+    /// What a unit of each joint's coordinate counts, rad.
+    counts: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -39,7 +41,11 @@ impl Waypoints {
             departure: waypoint.departure * duration,
             is_at_rest: waypoint.is_at_rest,
         });
-        Self { stops: stops.collect(), weights: WaypointWeights::of(scenario) }
+        Self {
+            stops: stops.collect(),
+            weights: WaypointWeights::of(scenario),
+            counts: scenario.system().radians_a_unit(),
+        }
     }
 
     /// What the errors at the beginning of a step cost.
@@ -52,8 +58,9 @@ impl Waypoints {
             let error = attitude.error_vector(&target);
             let mut cost = sum_of_squares(error.as_slice()) * self.weights.attitude;
             if stop.is_at_rest {
-                let rates = sum_of_squares(coordinates.joint_rates(x));
-                let accelerations = sum_of_squares(coordinates.acceleration_states(x));
+                let of_joints = |values: &[Expr]| sum_of_squares(&counted(values, &self.counts));
+                let rates = of_joints(coordinates.joint_rates(x));
+                let accelerations = of_joints(coordinates.acceleration_states(x));
                 cost += (rates + accelerations) * self.weights.joint_rate;
             }
             let is_after_arrival = begins + half - stop.arrival;

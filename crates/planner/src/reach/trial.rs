@@ -281,6 +281,7 @@ fn not_solved(scenario: &Scenario, settings: ReachSettings, value: f64, shortfal
             attitude_error_deg: unknown,
             angular_rate_deg_s: unknown,
             joint_rate_deg_s: unknown,
+            joint_speed_m_s: None,
         },
         shortfall: Some(shortfall),
     }

@@ -1,4 +1,4 @@
-/*! Generated from sources eea7fef8b586df9b94318634319b07ec5c47cca7a9ef93ca505f959fd19f3cf7 */
+/*! Generated from sources 4b91e6eff54f90ae0096f0ec1438620363cde063ff63394aecdb5970f57b6fbe */
 /*!
 three
 

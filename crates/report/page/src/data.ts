@@ -84,12 +84,14 @@ export type KeepOut =
 
 export type Triple = [number, number, number];
 
+/** Of a joint that turns deg and its rates, of one that slides m and its. */
 export interface JointLimits {
-  angle_min_deg: number | null;
-  angle_max_deg: number | null;
-  rate_max_deg_s: number;
-  acceleration_max_deg_s2: number;
-  jerk_max_deg_s3: number | null;
+  slides: boolean;
+  min: number | null;
+  max: number | null;
+  rate_max: number;
+  acceleration_max: number;
+  jerk_max: number | null;
 }
 
 /** Columns, node by node, each a little-endian float32 array in base64. */

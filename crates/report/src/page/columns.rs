@@ -18,7 +18,8 @@ pub(super) type Column = String;
 
 /// What the page shows of each node; a column that the plan has no numbers for is empty.
 ///
-/// Names, units and frames are those of `trajectory.csv`; what it does not have:
+/// Names, units and frames are those of `trajectory.csv` where all joints turn (those that slide have m and N
+/// under the same names); what it does not have:
 /// `joint_accelerations_rad_s2` are there at the last node too where there are jerks; `attitude_error_rad` is
 /// the angle to a slew's target, or its next waypoint, `arm_points_m` are the origins of frames
 /// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and

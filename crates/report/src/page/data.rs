@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use righting_multibody::{DhConvention, System};
 use righting_results::{Solution, Trajectory, UsedOptimizer};
+use righting_scenario::file::{JointKind, JointWords};
 use righting_scenario::{Maneuver, Scenario, SystemDescription, bodies};
 use serde::Serialize;
 
@@ -97,13 +98,15 @@ impl Waypoint {
     }
 }
 
+/// Of a joint that turns in deg and its rates, of one that slides in m and its.
 #[derive(Debug, Serialize)]
 struct JointLimits {
-    angle_min_deg: Option<f64>,
-    angle_max_deg: Option<f64>,
-    rate_max_deg_s: f64,
-    acceleration_max_deg_s2: f64,
-    jerk_max_deg_s3: Option<f64>,
+    slides: bool,
+    min: Option<f64>,
+    max: Option<f64>,
+    rate_max: f64,
+    acceleration_max: f64,
+    jerk_max: Option<f64>,
 }
 
 impl<'a> PageData<'a> {
@@ -231,13 +234,15 @@ impl KeepOut {
 
 impl JointLimits {
     fn of(limits: &righting_scenario::JointLimits) -> Self {
-        let finite_deg = |limit_rad: f64| limit_rad.is_finite().then(|| limit_rad.to_degrees());
+        let words = JointWords::of(limits.kind);
+        let finite = |limit: f64| limit.is_finite().then(|| words.from_si(limit));
         Self {
-            angle_min_deg: finite_deg(limits.angle_min_rad),
-            angle_max_deg: finite_deg(limits.angle_max_rad),
-            rate_max_deg_s: limits.rate_max_rad_s.to_degrees(),
-            acceleration_max_deg_s2: limits.acceleration_max_rad_s2.to_degrees(),
-            jerk_max_deg_s3: finite_deg(limits.jerk_max_rad_s3),
+            slides: limits.kind == JointKind::Prismatic,
+            min: finite(limits.angle_min_rad),
+            max: finite(limits.angle_max_rad),
+            rate_max: words.from_si(limits.rate_max_rad_s),
+            acceleration_max: words.from_si(limits.acceleration_max_rad_s2),
+            jerk_max: finite(limits.jerk_max_rad_s3),
         }
     }
 }

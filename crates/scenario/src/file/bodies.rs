@@ -1,5 +1,6 @@
 //! Bodies in a tree as files say them.
 
+use righting_multibody::JointKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +36,7 @@ pub struct Body {
 }
 
 /// What a body moves on. Where its coordinate is zero, the body's frame is the joint's; from there the joint
-/// turns it about the axis.
+/// turns it about the axis, or slides it along.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object with `type`")]
 pub struct Joint {
@@ -67,7 +68,7 @@ pub struct Joint {
     /// Largest joint angle, deg; null or absent for none. For a revolute joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle_max_deg: Option<f64>,
-    /// Largest joint rate in magnitude, deg/s.
+    /// Largest joint rate in magnitude, deg/s. This and the next three are for joints that turn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rate_max_deg_s: Option<f64>,
@@ -85,7 +86,31 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_max_n_m: Option<f64>,
-    /// Friction, rotor, gear and motor of the joint; by default a drive that adds nothing.
+    /// Smallest travel, m, along the axis. This and the next five are for prismatic joints, which need both
+    /// ends; where they are equal, the joint is locked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub travel_min_m: Option<f64>,
+    /// Largest travel, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub travel_max_m: Option<f64>,
+    /// Largest speed of the joint in magnitude, m/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub speed_max_m_s: Option<f64>,
+    /// Largest acceleration of the joint in magnitude, m/s².
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub acceleration_max_m_s2: Option<f64>,
+    /// Largest jerk in magnitude, m/s³; none by default. It does what `jerk_max_deg_s3` does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub jerk_max_m_s3: Option<f64>,
+    /// Largest force of the joint's drive in magnitude, N; none by default. Of a locked joint the force that
+    /// holds it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub force_max_n: Option<f64>,
+    /// Friction, rotor, gear and motor of a joint that turns; by default a drive that adds nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive: Option<Drive>,
 }
@@ -98,13 +123,49 @@ pub enum JointType {
     Revolute,
     /// It turns about the axis without limits of its angle.
     Continuous,
-    /// It slides along the axis; not supported yet.
+    /// It slides along the axis, within limits.
     Prismatic,
     /// It does not move: the body is a part of the one that carries it.
     Fixed,
 }
 
+impl JointType {
+    /// What the joint's coordinate is; none of a fixed one.
+    pub fn joint_kind(self) -> Option<JointKind> {
+        match self {
+            Self::Revolute | Self::Continuous => Some(JointKind::Revolute),
+            Self::Prismatic => Some(JointKind::Prismatic),
+            Self::Fixed => None,
+        }
+    }
+}
+
 impl Joint {
+    /// A joint of this type at the origin of what carries it, without a name and limits.
+    pub fn of_kind(kind: JointType) -> Self {
+        Self {
+            name: None,
+            kind,
+            position_m: None,
+            rpy_deg: None,
+            rotation: None,
+            axis: None,
+            angle_min_deg: None,
+            angle_max_deg: None,
+            rate_max_deg_s: None,
+            acceleration_max_deg_s2: None,
+            jerk_max_deg_s3: None,
+            torque_max_n_m: None,
+            travel_min_m: None,
+            travel_max_m: None,
+            speed_max_m_s: None,
+            acceleration_max_m_s2: None,
+            jerk_max_m_s3: None,
+            force_max_n: None,
+            drive: None,
+        }
+    }
+
     /// The joint's name, on the body called `body`.
     pub fn name_on(&self, body: &str) -> String {
         self.name.clone().unwrap_or_else(|| format!("{body}_joint"))

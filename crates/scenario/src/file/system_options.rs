@@ -41,6 +41,14 @@ pub struct SystemOptions {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rate_max_deg_s: Option<f64>,
+    /// Largest acceleration of joints that slide, m/s², which URDF does not have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub acceleration_max_m_s2: Option<f64>,
+    /// Largest speed of joints that slide and for which the file gives none, m/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub speed_max_m_s: Option<f64>,
     /// Whether links with a mass and no inertia are point masses; false by default: they are refused.
     #[serde(default, skip_serializing_if = "super::is_false")]
     pub point_masses: bool,

@@ -86,7 +86,7 @@ impl Model {
         .write(rate);
     }
 
-    /// Writes the torques (N m) of the joints' motors into `torques` (j): of the free-floating system
+    /// Writes the torques (N m; forces, N, where they slide) of the joints' motors into `torques` (j): of the free-floating system
     /// in the state `state` while its joints accelerate by `u` (j, rad/s²) and nothing acts from outside but
     /// `outside`. Returns what the base does to the arm at the mount.
     ///
@@ -118,7 +118,10 @@ impl Model {
             let [force, moment] = carried[step.frame];
             if let Some(joint) = step.joint {
                 let (point, axis) = motion.joint_axis(step);
-                torques[joint] = axis.dot(&(moment - (point - state.position).cross(&force)));
+                torques[joint] = match step.slides() {
+                    true => axis.dot(&force),
+                    false => axis.dot(&(moment - (point - state.position).cross(&force))),
+                };
             }
             carried[step.parent][0] += force;
             carried[step.parent][1] += moment;

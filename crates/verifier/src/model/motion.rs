@@ -98,7 +98,7 @@ impl Motion {
     }
 
     /// Moves the system as given: in the state `state`, with the base accelerating as `base` and the
-    /// joints as `u` (j, rad/s²).
+    /// joints as `u` (j, rad/s² or m/s²).
     ///
     /// # Panics
     /// A slice does not have one value a joint, or `model` is not the one this was made for.
@@ -134,6 +134,19 @@ impl Motion {
             let (rotation, arm) = step.follow(&before.rotation, angle);
             let axis = step.axis(&before.rotation, &rotation);
             let relative = axis * rate;
+            if step.slides() {
+                let (velocity, swing) = before.point(&arm);
+                self.frames[step.frame] = FrameMotion {
+                    rotation,
+                    origin: before.origin + arm,
+                    velocity: velocity + relative,
+                    acceleration: swing
+                        + before.angular_rate.cross(&relative) * 2.0
+                        + axis * acceleration,
+                    ..before
+                };
+                continue;
+            }
             let turned = FrameMotion {
                 rotation,
                 angular_rate: before.angular_rate + relative,

@@ -21,8 +21,14 @@ pub(super) struct Step {
 enum Way {
     /// By a row of Denavit–Hartenberg parameters.
     Row(Row, Convention),
-    /// By a fixed placement and, about an axis through its origin, a turn.
-    Placed { position: Vector3<f64>, rotation: Matrix3<f64>, axis: Unit<Vector3<f64>> },
+    /// By a fixed placement and then along or about an axis through its origin.
+    Placed {
+        position: Vector3<f64>,
+        rotation: Matrix3<f64>,
+        axis: Unit<Vector3<f64>>,
+        /// Whether the joint slides along the axis instead of turning about it.
+        slides: bool,
+    },
 }
 
 impl Step {
@@ -54,16 +60,21 @@ impl Step {
             position: Vector3::from(joint.position_m.unwrap_or_default()),
             rotation: rotation.into_inner(),
             axis: Unit::new_normalize(Vector3::from(joint.axis.unwrap_or([0.0, 0.0, 1.0]))),
+            slides: joint.kind == JointType::Prismatic,
         };
         Self { frame, parent, joint: number, way }
     }
 
-    /// From the axes of the frame before, at joint angle `q` (rad): the axes of this frame, and its origin
+    /// From the axes of the frame before, at joint coordinate `q` (rad or m): the axes of this frame, and its origin
     /// from the origin of the frame before. Axes are the columns of a matrix.
     pub fn follow(&self, before: &Matrix3<f64>, q: f64) -> (Matrix3<f64>, Vector3<f64>) {
         match &self.way {
             Way::Row(row, convention) => row.follow(*convention, before, q),
-            Way::Placed { position, rotation, axis } => {
+            Way::Placed { position, rotation, axis, slides: true } => {
+                let along = rotation * axis.into_inner() * q;
+                (before * rotation, before * (position + along))
+            }
+            Way::Placed { position, rotation, axis, slides: false } => {
                 let turned = rotation * Rotation3::from_axis_angle(axis, q).into_inner();
                 (before * turned, before * position)
             }
@@ -77,6 +88,11 @@ impl Step {
             Way::Row(_, Convention::Proximal) => after.column(2).into_owned(),
             Way::Placed { axis, .. } => after * axis.into_inner(),
         }
+    }
+
+    /// Whether the joint slides.
+    pub fn slides(&self) -> bool {
+        matches!(self.way, Way::Placed { slides: true, .. })
     }
 
     /// Whether the way from the origin of the frame before to that of this one turns with the joint: then
