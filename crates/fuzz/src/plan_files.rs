@@ -4,6 +4,7 @@
 use std::sync::LazyLock;
 
 use arbitrary::{Result, Unstructured};
+use righting_multibody::JointKind;
 use righting_results::solution::solution_schema;
 use righting_results::{SOLUTION_FILE, Solution, TRAJECTORY_FILE, Trajectory};
 use righting_verifier::verify_directory;
@@ -84,7 +85,9 @@ pub(crate) fn check_table(
         Err(message) => well_said(&message, file.display()).map(|()| Outcome::Refused),
         Ok(trajectory) => {
             let copy = workspace.file("copy.csv");
-            trajectory.write_csv(&copy).map_err(|error| error.to_string())?;
+            // The kinds are in the header alone.
+            let kinds = vec![JointKind::Revolute; trajectory.joints()];
+            trajectory.write_csv(&kinds, &copy).map_err(|error| error.to_string())?;
             match Trajectory::read_csv(&copy) {
                 Ok(again) if again == trajectory => Ok(Outcome::Accepted),
                 Ok(_) => Err("a table is another one after it was written and read".to_owned()),

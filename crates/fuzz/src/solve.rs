@@ -41,6 +41,7 @@ pub(crate) fn check(u: &mut Unstructured<'_>, workspace: &Workspace) -> Result<O
         return Ok(Outcome::NoPlan);
     }
     let wrong = |what: &str| Err(format!("{what}: {value}"));
+    let kinds = scenario.system().model.joint_kinds();
     let again = match solution.duration_s {
         Some(duration_s) => verify(&scenario.with_duration(duration_s), &trajectory),
         None => verify(&scenario, &trajectory),
@@ -50,7 +51,7 @@ pub(crate) fn check(u: &mut Unstructured<'_>, workspace: &Workspace) -> Result<O
     }
     let failed = |error: righting_scenario::Error| format!("{error}: {value}");
     solution.write_json(&workspace.file(SOLUTION_FILE)).map_err(failed)?;
-    trajectory.write_csv(&workspace.file(TRAJECTORY_FILE)).map_err(failed)?;
+    trajectory.write_csv(&kinds, &workspace.file(TRAJECTORY_FILE)).map_err(failed)?;
     let read = verify_directory(workspace.path()).map_err(failed)?.solution;
     match (solution.verification.passed, read.verification.passed) {
         (true, true) => Ok(Outcome::Verified),

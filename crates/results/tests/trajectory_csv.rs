@@ -192,7 +192,7 @@ fn damaged_tables_are_refused_with_the_place() {
 #[test]
 fn what_a_cell_holds_does_not_spoil_the_message() {
     let mut text = Vec::new();
-    awkward(1, 2, false, 0).print_csv(&mut text).unwrap();
+    awkward(1, 2, false, 0).print_csv(&turning(1), &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     for hostile in ["1\u{9b}2J", &"9".repeat(10_000)] {
         let message = refusal(&text.replacen("-0,", &format!("{hostile}x,"), 1));

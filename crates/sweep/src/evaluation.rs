@@ -58,7 +58,7 @@ impl Evaluator {
                     Err(outcome) => outcome,
                     Ok(planned) => {
                         if let Some(plans) = &self.plans {
-                            keep(&plans.join(case_id.to_string()), &planned)?;
+                            keep(&plans.join(case_id.to_string()), &scenario, &planned)?;
                         }
                         outcome_of(&planned.solution)
                     }
@@ -141,10 +141,11 @@ fn outcome_of(solution: &Solution) -> Outcome {
 }
 
 /// Writes a plan to a folder of its own, as `righting solve` does but for what shows it.
-fn keep(folder: &Path, planned: &Planned) -> io::Result<()> {
+fn keep(folder: &Path, scenario: &Scenario, planned: &Planned) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let Planned { solution, trajectory } = planned;
-    trajectory.write_csv(&folder.join(TRAJECTORY_FILE)).map_err(io::Error::other)?;
+    let kinds = scenario.system().model.joint_kinds();
+    trajectory.write_csv(&kinds, &folder.join(TRAJECTORY_FILE)).map_err(io::Error::other)?;
     solution.write_json(&folder.join(SOLUTION_FILE)).map_err(io::Error::other)
 }
 
