@@ -74,10 +74,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
     let file = SystemOrScenario::read(&arguments.file)
         .map_err(|error| Failure::InputOf { kind: FileKind::SystemOrScenario, error })?;
-    let wheels = arguments.wheels.read_or(match &file {
+    let of_scenario = match &file {
         SystemOrScenario::Scenario(scenario) => WheelArray::of(scenario.wheels()),
         SystemOrScenario::System(_) => None,
-    })?;
+    };
+    let wheels = arguments.wheels.read()?.or(of_scenario).unwrap_or_else(WheelArray::pyramid);
     let system = file.system();
     let folder = OutputFolder::open(&arguments.out)?;
     let found = envelopes(system, arguments.samples as usize, arguments.seed, &wheels);

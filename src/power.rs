@@ -89,8 +89,10 @@ struct PrintedWheels<'a> {
 /// Reads, checks, computes, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
+    let given = arguments.wheels.read()?;
     let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
-    let wheels = arguments.wheels.read_or(WheelArray::of(scenario.wheels()))?;
+    let of_scenario = WheelArray::of(scenario.wheels());
+    let wheels = given.or(of_scenario).unwrap_or_else(WheelArray::pyramid);
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
     let motors = Motors::new(&scenario.system().drives, &profile);
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;

@@ -18,12 +18,9 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// Reads them, or takes others where no file is named and there are any.
-    pub fn read_or(&self, others: Option<WheelArray>) -> Result<WheelArray, Failure> {
-        match (&self.wheels, others) {
-            (None, Some(others)) => Ok(others),
-            (file, _) => WheelArray::read_or_pyramid(file.as_deref())
-                .map_err(|error| Failure::InputOf { kind: FileKind::Wheels, error }),
-        }
+    /// Reads those of the file; none where no file is named.
+    pub fn read(&self) -> Result<Option<WheelArray>, Failure> {
+        let read = self.wheels.as_deref().map(WheelArray::read).transpose();
+        read.map_err(|error| Failure::InputOf { kind: FileKind::Wheels, error })
     }
 }

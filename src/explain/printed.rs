@@ -88,8 +88,8 @@ pub struct Asked {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
     /// Slew: how many attitudes it reaches on its way; absent without any.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub waypoints: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub waypoints: Option<usize>,
     /// Slew by an arm that turns the base about one axis only: the angle between that axis and the one asked,
     /// deg.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,11 +110,6 @@ pub struct Asked {
     /// Detumble: no motion that stops the arm leaves less, deg/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound_deg_s: Option<f64>,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 /// The JSON Schema (draft 2020-12) of explain.json.
@@ -191,7 +186,7 @@ fn asked(scenario: &Scenario, abilities: &Abilities) -> Asked {
         possible_axes: reason.as_ref().and_then(axes),
         axis: slew.map(|slew| slew.axis.into()),
         angle_deg: slew.map(|slew| slew.angle_rad.to_degrees()),
-        waypoints: scenario.waypoints().len(),
+        waypoints: Some(scenario.waypoints().len()).filter(|count| *count > 0),
         off_axis_deg: slew
             .and_then(|slew| abilities.axes.off_axis_rad(&slew.axis))
             .map(f64::to_degrees),

@@ -120,13 +120,13 @@ fn about_loops(loops: &Loops) -> Vec<(&'static str, String)> {
 
 fn phrase(asked: &Asked) -> String {
     let duration = short(asked.duration_s);
-    let way = match asked.waypoints {
+    let way = match asked.waypoints.unwrap_or(0) {
         0 => String::new(),
         1 => " by way of a waypoint".to_owned(),
         waypoints => format!(" by way of {waypoints} waypoints"),
     };
     match (asked.axis, asked.angle_deg) {
-        (Some(_), Some(0.0)) if asked.waypoints > 0 => {
+        (Some(_), Some(0.0)) if asked.waypoints.is_some() => {
             format!("slew back to the start{way} in {duration} s")
         }
         (Some(axis), Some(angle_deg)) => {

@@ -86,7 +86,7 @@ fn wrong_robots_and_options_are_bad_input() {
     };
     bad(&without("--base"), "<--base <LINK>|--on <FILE>>");
     bad(&without("--acceleration-max-deg-s2"), "acceleration_max_deg_s2: missing");
-    bad(&without("--lock"), "locked.left: missing");
+    bad(&without("--lock"), "acceleration_max_m_s2: missing");
     bad(&[&LOCKED[..], &["--tip", "hand"]].concat(), "tip: found \"hand\"");
     bad(&[&LOCKED[..], &["--lock", "shoulder"]].concat(), "expected JOINT=VALUE");
     bad(&[&LOCKED[..], &["--mount-xyz", "0", "0", "1"]].concat(), "found a mount without `on`");

@@ -12,30 +12,31 @@ const PANEL_SIZE: [f64; 2] = [620.0, 110.0];
 /// Below this share of its limit a momentum or torque counts as constant.
 const LEAST_SHARE: f64 = 1e-9;
 
-/// The figure of every wheel's momentum and torque beside their limits, as an SVG document; none without wheels.
+/// The figure of momentum and torque beside their limits, of every wheel that works, as an SVG document; none without
+/// such wheels.
 pub fn wheels_svg(
     solution: &Solution,
     wheels: &[Wheel],
     trajectory: &Trajectory,
 ) -> Option<String> {
-    if wheels.is_empty() {
+    if wheels.iter().all(|wheel| wheel.failed) {
         return None;
     }
     let (title, subtitle) = heading(solution);
     let nodes = 0..trajectory.nodes().len();
-    let panels = wheels.iter().enumerate().flat_map(|(index, wheel)| {
+    let working = wheels.iter().enumerate().filter(|(_, wheel)| !wheel.failed);
+    let panels = working.flat_map(|(index, wheel)| {
         let momenta = trajectory.nodes().iter().map(|node| node.wheel_momenta_n_m_s[index]);
         let torques = nodes.clone().map(|k| trajectory.wheel_torques_at(k)[index]);
-        let failed = if wheel.failed { ", which has failed" } else { "" };
         [
             panel(
-                format!("Momentum of wheel {}{failed}", index + 1),
+                format!("Momentum of wheel {}", index + 1),
                 "Momentum [N m s]",
                 momenta.collect(),
                 wheel.momentum_max_n_m_s,
             ),
             panel(
-                format!("Torque of wheel {}{failed}", index + 1),
+                format!("Torque of wheel {}", index + 1),
                 "Torque [N m]",
                 torques.collect(),
                 wheel.torque_max_n_m,

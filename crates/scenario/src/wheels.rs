@@ -204,14 +204,6 @@ impl WheelArray {
         (!wheels.is_empty()).then(|| Self { wheels: wheels.to_vec() })
     }
 
-    /// The wheels of a file, or [the pyramid](Self::pyramid) where none is named.
-    ///
-    /// # Errors
-    /// Those of [`read`](Self::read).
-    pub fn read_or_pyramid(file: Option<&Path>) -> Result<Self, Error> {
-        file.map_or_else(|| Ok(Self::pyramid()), Self::read)
-    }
-
     /// The wheels.
     pub fn wheels(&self) -> &[Wheel] {
         &self.wheels

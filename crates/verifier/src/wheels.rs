@@ -112,14 +112,14 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
     for (index, (wheel, end)) in asked.wheels.wheels.iter().zip(&asked.wheels.end).enumerate() {
         let Wheel { momentum_max, torque_max, at_start, failed, .. } = *wheel;
         let subject = format!("wheel {}", index + 1);
-        let mut mismatch = Worst::new("wheel momentum mismatch", "N m s", SHARE * momentum_max);
+        let mut mismatch = Worst::new("wheel momentum mismatch", "N m s", 0.0);
         let mut momentum = Worst::of_limit("wheel momentum", "N m s", SHARE * momentum_max);
         let mut torque = Worst::of_limit("wheel torque", "N m", SHARE * torque_max);
         let mut expected = at_start;
         for (k, node) in trajectory.nodes().iter().enumerate() {
             let time_s = Some(node.time_s);
             let found = node.wheel_momenta_n_m_s[index];
-            mismatch.at_most((found - expected).abs(), 0.0, None, time_s);
+            mismatch.at_most((found - expected).abs(), SHARE * momentum_max, None, time_s);
             momentum.at_most(found.abs(), momentum_max, None, time_s);
             if let Some(interval) = trajectory.intervals().get(k) {
                 let given = interval.wheel_torques_n_m[index];
@@ -131,10 +131,11 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
         ledger.add_of(momentum, &subject);
         ledger.add_of(torque, &subject);
         if let Some(asked_n_m_s) = end {
-            let name = "wheel momentum at the end";
-            let mut missed = Worst::new(name, "N m s", SHARE * momentum_max);
+            let name = "wheel momentum off at the end";
+            let mut missed = Worst::new(name, "N m s", 0.0);
             let found = trajectory.end().wheel_momenta_n_m_s[index];
-            missed.at_most((found - asked_n_m_s).abs(), 0.0, None, Some(trajectory.end().time_s));
+            let time_s = Some(trajectory.end().time_s);
+            missed.at_most((found - asked_n_m_s).abs(), SHARE * momentum_max, None, time_s);
             ledger.add_of(missed, &subject);
         }
     }
