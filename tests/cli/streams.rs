@@ -77,8 +77,15 @@ fn an_interrupted_solve_ends_cleanly() {
         let pid = rustix::process::Pid::from_child(&child);
         rustix::process::kill_process(pid, rustix::process::Signal::INT).expect("it is running");
         let run = Run::from(child.wait_with_output().expect("it ends"));
-        assert_eq!((run.code, run.stderr.as_str()), (130, "error: interrupted\n"), "{guess}");
-        assert_eq!(run.json()["status"], "interrupted");
-        assert_eq!(files_in(&folder.path().join("out")), ["solution.json"]);
+        // How far it is then is the machine's to say.
+        let has_plan = match run.stderr.as_str() {
+            "error: interrupted\n" => false,
+            "error: interrupted: the plan until then is verified, but not optimal\n" => true,
+            other => panic!("{guess}: {other}"),
+        };
+        assert_eq!((run.code, &run.json()["status"]), (130, &json!("interrupted")), "{guess}");
+        let files = files_in(&folder.path().join("out"));
+        assert!(files.contains(&"solution.json".to_owned()), "{guess}: {files:?}");
+        assert_eq!(files.contains(&"trajectory.csv".to_owned()), has_plan, "{guess}: {files:?}");
     }
 }

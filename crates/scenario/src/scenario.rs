@@ -313,9 +313,13 @@ impl Scenario {
     }
 
     /// Whether the base may drift at the end of a slew as its angular momentum has it: what comes from outside is
-    /// nothing that a plan could take away. The rate that shall be zero is then the one beyond that drift.
+    /// nothing that a plan could take away, unless wheels hold it that are not asked to give up what they store. The
+    /// rate that shall be zero is then the one beyond that drift.
     pub fn may_drift(&self) -> bool {
-        let wheels_hold = self.wheels.iter().any(|wheel| !wheel.failed);
+        let wheels_work = self.wheels.iter().any(|wheel| !wheel.failed);
+        let wheels_give_up = self.weights.wheel_momentum > 0.0
+            || self.end_wheel_momenta_n_m_s.iter().any(Option::is_some);
+        let wheels_hold = wheels_work && !wheels_give_up;
         self.environment.is_some() && self.maneuver != Maneuver::Detumble && !wheels_hold
     }
 

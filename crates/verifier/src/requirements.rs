@@ -87,7 +87,7 @@ impl Requirements {
             end_posture: EndPosture::new(file.end.as_ref(), &kinds),
             horizon: scenario.horizon(),
             surroundings: Surroundings::new(file.environment.as_ref()),
-            may_drift: file.environment.is_some() && !wheels.work(),
+            may_drift: file.environment.is_some() && !(wheels.work() && wheels.may_hold(file)),
             wheels,
             joint_limits: system.joints().iter().map(JointLimits::new).collect(),
             slides: kinds.iter().map(|kind| *kind == JointKind::Prismatic).collect(),

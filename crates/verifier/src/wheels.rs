@@ -74,6 +74,12 @@ impl Wheels {
         self.wheels.iter().any(|wheel| !wheel.failed)
     }
 
+    /// Whether nothing asks them to give up what they store.
+    pub fn may_hold(&self, scenario: &file::Scenario) -> bool {
+        scenario.weights.wheel_momentum.unwrap_or(0.0) == 0.0
+            && self.end.iter().all(Option::is_none)
+    }
+
     /// What they store at a node, and give in the interval after it.
     pub fn store(&self, node: &Node, interval: &ControlInterval) -> Store {
         Store {
@@ -114,7 +120,11 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
         let subject = format!("wheel {}", index + 1);
         let mut mismatch = Worst::new("wheel momentum mismatch", "N m s", 0.0);
         let mut momentum = Worst::of_limit("wheel momentum", "N m s", SHARE * momentum_max);
-        let mut torque = Worst::of_limit("wheel torque", "N m", SHARE * torque_max);
+        let mut torque = match failed {
+            true => Worst::new("torque of a failed wheel", "N m", 0.0),
+            false => Worst::of_limit("wheel torque", "N m", SHARE * torque_max),
+        };
+        let most = if failed { 0.0 } else { torque_max };
         let mut expected = at_start;
         for (k, node) in trajectory.nodes().iter().enumerate() {
             let time_s = Some(node.time_s);
@@ -123,7 +133,7 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
             momentum.at_most(found.abs(), momentum_max, None, time_s);
             if let Some(interval) = trajectory.intervals().get(k) {
                 let given = interval.wheel_torques_n_m[index];
-                torque.at_most(given.abs(), if failed { 0.0 } else { torque_max }, None, time_s);
+                torque.at_most(given.abs(), most, None, time_s);
                 expected += given * (asked.horizon.time_s(k + 1) - asked.horizon.time_s(k));
             }
         }
