@@ -114,7 +114,7 @@ impl Requirements {
 }
 
 /// The length of the arm stretched out, from the origin of the body frame, m; of bodies, to the joint or
-/// center of mass that can be farthest.
+/// center of mass that can be farthest. Not less than to the base's center of mass: places have its rounding.
 fn size_m(system: &file::System) -> f64 {
     let size_m = match &system.bodies {
         None => {
@@ -134,6 +134,8 @@ fn size_m(system: &file::System) -> f64 {
             (0..bodies.len()).map(reach_m).fold(0.0, f64::max)
         }
     };
+    let to_base_m = Vector3::from(system.base.center_of_mass_m.unwrap_or_default()).norm();
+    let size_m = f64::max(size_m, to_base_m);
     if size_m > 0.0 { size_m } else { 1.0 }
 }
 
