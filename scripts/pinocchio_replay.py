@@ -60,13 +60,10 @@ def replayed(scenario: dict, table: Path) -> list[str]:
     def derivative(pose: np.ndarray, k: int, s: float, q: np.ndarray, qd: np.ndarray) -> np.ndarray:
         unit = pose[3:7] / np.linalg.norm(pose[3:7])
         turn = rotation(unit)
-        matrix = pin.computeCentroidalMap(model, data, configuration(pose[:3], unit, q))
         of_bodies = np.r_[momentum[:3], pose[7:] - turn @ outside.stored(k, s)]
-        twist = np.linalg.solve(matrix[:, :6], of_bodies - matrix[:, 6:] @ qd)
-        spin = twist[3:]
-        quaternion = 0.5 * np.r_[-unit[1:] @ spin, unit[0] * spin + np.cross(unit[1:], spin)]
+        moved = base_rates(model, data, pose[:7], (q, qd), of_bodies)
         moment = outside.moment(model, data, configuration(pose[:3], unit, q), turn, time_s[k] + s)
-        return np.r_[turn @ twist[:3], quaternion, moment]
+        return np.r_[moved, moment]
 
     # Position, attitude and angular momentum.
     pose = np.r_[position, attitude, momentum[3:]]
@@ -101,6 +98,22 @@ def replayed(scenario: dict, table: Path) -> list[str]:
     if largest > 0 and np.abs(expected - torques[nodes]).max() > TORQUE * largest:
         problems.append(f"torques off by {np.abs(expected - torques[nodes]).max() / largest:.1e}")
     return problems
+
+
+def base_rates(
+    model: pin.Model,
+    data: pin.Data,
+    pose: np.ndarray,
+    joints: tuple[np.ndarray, np.ndarray],
+    momentum: np.ndarray,
+) -> np.ndarray:
+    """Rates of position and attitude of a base whose bodies have this momentum, while the joints move."""
+    (angles, rates), unit = joints, pose[3:] / np.linalg.norm(pose[3:])
+    matrix = pin.computeCentroidalMap(model, data, configuration(pose[:3], unit, angles))
+    twist = np.linalg.solve(matrix[:, :6], momentum - matrix[:, 6:] @ rates)
+    spin = twist[3:]
+    quaternion = 0.5 * np.r_[-unit[1:] @ spin, unit[0] * spin + np.cross(unit[1:], spin)]
+    return np.r_[rotation(unit) @ twist[:3], quaternion]
 
 
 class Outside:

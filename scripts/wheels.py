@@ -18,9 +18,8 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
 
-from pinocchio_replay import build, configuration, read, replayed, rotation
+from pinocchio_replay import base_rates, build, read, replayed
 
 ROOT = Path(__file__).resolve().parents[1]
 AXES = 10
@@ -139,12 +138,7 @@ def uncompensated(scenario: dict) -> tuple[np.ndarray, float]:
     def derivative(pose: np.ndarray, time_s: float) -> np.ndarray:
         s = time_s / duration_s
         angles, rates = start + way * (3 - 2 * s) * s**2, way * 6 * s * (1 - s) / duration_s
-        unit = pose[3:] / np.linalg.norm(pose[3:])
-        matrix = pin.computeCentroidalMap(model, data, configuration(pose[:3], unit, angles))
-        twist = np.linalg.solve(matrix[:, :6], -matrix[:, 6:] @ rates)
-        spin = twist[3:]
-        quaternion = 0.5 * np.r_[-unit[1:] @ spin, unit[0] * spin + np.cross(unit[1:], spin)]
-        return np.r_[rotation(unit) @ twist[:3], quaternion]
+        return base_rates(model, data, pose, (angles, rates), np.zeros(6))
 
     pose, h = np.r_[0.0, 0, 0, 1, 0, 0, 0], duration_s / steps / PARTS
     attitudes = [pose[3:]]

@@ -1,11 +1,11 @@
 //! How far a detumble can go.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use righting_scenario::collision::CollisionModel;
 use righting_scenario::halton::Halton;
 use righting_scenario::scenario::Scenario;
 use righting_scenario::system_description::SystemDescription;
-use righting_scenario::wheels::Wheel;
+use righting_scenario::wheels::{Wheel, stored_at_start};
 
 use crate::zonotope::Zonotope;
 
@@ -26,23 +26,19 @@ const FINEST: f64 = 1e-7;
 ///
 /// the maximum over the postures within the joints' limits that keep their clearances. It is found
 /// from evenly spread postures and the start by climbing from the best of them, the same way every time.
-/// Wheels take as much of h₀ as they can store in the best direction. Whether the arm can get there, and in the time there is, does not count: a bound may be out of reach.
+/// Wheels take as much of h₀ as they can store in the best direction. Whether the arm can get there, and in the
+/// time there is, does not count: a bound may be out of reach.
 pub fn rate_bound_rad_s(scenario: &Scenario) -> f64 {
     let initial = scenario.initial();
     let (failed, working): (Vec<Wheel>, Vec<Wheel>) =
         scenario.wheels().iter().partition(|wheel| wheel.failed);
-    let at_start = |wheels: &[Wheel]| -> Vector3<f64> {
-        let axes =
-            wheels.iter().map(|wheel| Vector3::from(wheel.axis) * wheel.initial_momentum_n_m_s);
-        axes.sum()
-    };
-    let in_store = initial.attitude.to_inertial(&(at_start(&working) + at_start(&failed)));
+    let in_store = initial.attitude.to_inertial(&stored_at_start(scenario.wheels()));
     let total = (initial.angular_momentum_n_m_s + in_store).norm();
     let most = match working.is_empty() {
         true => 0.0,
         false => Zonotope::momenta(&working).radii().max,
     };
-    (total - most - at_start(&failed).norm()).max(0.0) / largest_inertia_kg_m2(scenario)
+    (total - most - stored_at_start(&failed).norm()).max(0.0) / largest_inertia_kg_m2(scenario)
 }
 
 /// max_q λ_max(Ĩ(q)) of [`rate_bound_rad_s`], kg m².

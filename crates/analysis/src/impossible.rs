@@ -5,7 +5,8 @@ use std::fmt;
 
 use nalgebra::Vector3;
 use righting_scenario::scenario::Slew;
-use righting_scenario::{Environment, Leg, Maneuver, Scenario};
+use righting_scenario::wheels::any_works;
+use righting_scenario::{Leg, Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
 use crate::detumble::{largest_inertia_kg_m2, some_posture_is_slower};
@@ -84,10 +85,10 @@ impl Impossible {
     /// What makes the maneuver of a scenario impossible, if that is known without planning it. A slew that
     /// is within its tolerance of doing nothing is always possible.
     pub fn of(scenario: &Scenario) -> Option<Self> {
-        if scenario.wheels().iter().any(|wheel| !wheel.failed) {
+        if any_works(scenario.wheels()) {
             return of_wheels(scenario);
         }
-        if scenario.environment().is_some_and(Environment::acts) {
+        if scenario.acting_environment().is_some() {
             return None;
         }
         match scenario.maneuver() {

@@ -28,13 +28,6 @@ pub struct LoadHistory {
     pub values: Vec<f64>,
 }
 
-impl LoadHistory {
-    /// The largest magnitude.
-    pub fn peak(&self) -> f64 {
-        self.values.iter().fold(0.0, |peak, value| value.abs().max(peak))
-    }
-}
-
 /// Every load of a system that has a limit.
 ///
 /// # Panics

@@ -241,8 +241,7 @@ fn within(
             let duration_s = (place - reached) * length_s;
             let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
                 let control = interval.joint_accelerations_after(before_s + after_s);
-                let state = State::from_slice(x).expect("as long as its own state");
-                let external = trajectory.external(scenario, (k, before_s + after_s), &state);
+                let external = trajectory.external(scenario, (k, before_s + after_s), x);
                 let derivative = model.state_derivative(x, &control, external.as_ref());
                 rate.copy_from_slice(&derivative);
             });
@@ -256,7 +255,7 @@ fn within(
         let control = interval.joint_accelerations_after(place * length_s);
         let (angles, rates) = (&state.joint_angles, &state.joint_rates);
         let time_s = if place == 1.0 { end_s } else { start_s + place * length_s };
-        let external = trajectory.external(scenario, (k, place * length_s), &state);
+        let external = trajectory.external(scenario, (k, place * length_s), &x);
         let dynamics =
             model.free_floating_dynamics(rate, angles, rates, &control, external.as_ref());
         let torques = dynamics.joint_torques;

@@ -63,7 +63,7 @@ impl JointTrajectory {
             let torques = match trajectory.intervals().get(k) {
                 Some(interval) => interval.joint_torques_n_m.clone(),
                 None => {
-                    let external = trajectory.external(scenario, (k, 0.0), &node.state());
+                    let external = trajectory.external(scenario, (k, 0.0), &node.state().to_vec());
                     system.model.joint_torques(
                         &node.angular_rate_rad_s.into(),
                         &node.joint_angles_rad,

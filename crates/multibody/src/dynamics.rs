@@ -9,7 +9,8 @@
 //! ```
 //!
 //! N, the moment about the system's centre of mass, is dH/dt + ω × H of DESIGN's equations without
-//! its ω̇; where a couple acts from outside, it stands in the place of the first zero. Forces obey the recursion of [`Coupling`](crate::coupling::Coupling) as momenta do:
+//! its ω̇; where a couple acts from outside, it stands in the place of the first zero. Forces obey the
+//! recursion of [`Coupling`](crate::coupling::Coupling) as momenta do:
 //!
 //! ```text
 //! f' = f + g̈,         N' = N + b × f + F × b̈ + (C's own moment)
@@ -196,7 +197,8 @@ fn joint_spin<T: Scalar>(spins: &[Spins<T>], joint: Option<usize>) -> Option<Spi
 
 impl System {
     /// ω̇ and r̈₀ of the free-floating base turning at `omega` (body axes, rad/s) while its joints
-    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s², or m, m/s, m/s²). Nothing acts from outside but `external`.
+    /// are at `q`, `qdot`, `qddot` (j each; rad, rad/s, rad/s², or m, m/s, m/s²). Nothing acts from outside but
+    /// `external`.
     ///
     /// # Panics
     /// A slice does not have one value a joint.

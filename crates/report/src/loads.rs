@@ -6,13 +6,9 @@ use righting_results::Solution;
 use righting_scenario::SystemDescription;
 
 use crate::figure::{Figure, heading};
-use crate::number::drawn;
-use crate::panel::{Curve, Panel, Rule, RuleKind};
-use crate::style;
+use crate::panel::Panel;
 
 const PANEL_SIZE: [f64; 2] = [620.0, 110.0];
-/// Below this share of its limit a load counts as constant.
-const LEAST_SHARE: f64 = 1e-9;
 
 /// The figure of every load that has a limit, as an SVG document: torques of the drives, force and moment at
 /// the mount, and the base's angular rate; none where nothing is limited.
@@ -38,7 +34,6 @@ pub fn loads_svg(
 }
 
 fn panel(history: LoadHistory, system: &SystemDescription) -> Panel {
-    let peak = history.peak();
     let LoadHistory { load, most, values } = history;
     let (name, axis_label, scale) = match load {
         LimitedLoad::JointTorque(joint) => {
@@ -50,19 +45,7 @@ fn panel(history: LoadHistory, system: &SystemDescription) -> Panel {
             ("Angular rate of the base".to_owned(), "Rate [deg/s]", 1_f64.to_degrees())
         }
     };
-    let limit = |value| Rule { kind: RuleKind::Limit, value: scale * value };
     let is_signed = matches!(load, LimitedLoad::JointTorque(_));
-    let lower = is_signed.then(|| limit(-most));
-    Panel {
-        heading: name,
-        axis_label,
-        note: format!("peak {} of {}", drawn(scale * peak), drawn(scale * most)),
-        curves: vec![Curve::plain(
-            if is_signed { style::Z } else { style::MAGNITUDE },
-            values.into_iter().map(|value| scale * value).collect(),
-        )],
-        rules: lower.into_iter().chain([limit(most)]).collect(),
-        least_span: LEAST_SHARE * scale * most,
-        ..Panel::default()
-    }
+    let values = values.into_iter().map(|value| scale * value).collect();
+    Panel::limited(name, axis_label, values, scale * most, is_signed)
 }

@@ -88,7 +88,33 @@ const RULE_LABEL_INSET: f64 = 4.0;
 /// Height kept free of curves for a limit that is off scale and its label.
 const OFF_SCALE_STRIP: f64 = 16.0;
 
+/// Below this share of its limit a quantity counts as constant.
+const LEAST_SHARE: f64 = 1e-9;
+
 impl Panel {
+    /// Of a quantity that is limited by `most` in magnitude, and also from below where it has a sign; its peak stands
+    /// in the corner.
+    pub fn limited(
+        heading: String,
+        axis_label: &'static str,
+        values: Vec<f64>,
+        most: f64,
+        is_signed: bool,
+    ) -> Self {
+        let peak = values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        let limit = |value| Rule { kind: RuleKind::Limit, value };
+        let color = if is_signed { style::Z } else { style::MAGNITUDE };
+        Self {
+            heading,
+            axis_label,
+            note: format!("peak {} of {}", drawn(peak), drawn(most)),
+            curves: vec![Curve::plain(color, values)],
+            rules: is_signed.then(|| limit(-most)).into_iter().chain([limit(most)]).collect(),
+            least_span: LEAST_SHARE * most,
+            ..Self::default()
+        }
+    }
+
     /// The range of values shown: all curves and targets, and each limit that leaves the curves
     /// [`style::LEAST_CURVE_SHARE`] of the height. The other limits get a strip at the edge that
     /// they lie behind, out of the `height` in pixels.

@@ -151,18 +151,23 @@ impl Trajectory {
         pairs.map(|(momentum, torque)| momentum + after_s * torque).collect()
     }
 
-    /// What acts on the scenario's system from outside and by its wheels where it moves as `state`, a time after node
-    /// `k` and within its interval; none where nothing does.
+    /// What acts on the scenario's system from outside and by its wheels in the state vector `x` of the full form, a
+    /// time after node `k` and within its interval; none where nothing does.
+    ///
+    /// # Panics
+    /// `x` has fewer than 13 elements.
     pub fn external(
         &self,
         scenario: &Scenario,
         (k, after_s): (usize, f64),
-        state: &State<f64>,
+        x: &[f64],
     ) -> Option<External<f64>> {
+        let attitude = Quaternion::from_array([x[3], x[4], x[5], x[6]]);
+        let rate = Vector3::new(x[10], x[11], x[12]);
         let momenta = self.wheel_momenta_after(k, after_s);
         let time_s = self.nodes[k].time_s + after_s;
         let wheels = (&momenta[..], self.wheel_torques_at(k));
-        scenario.external(&state.attitude, &state.angular_rate, time_s, wheels)
+        scenario.external(&attitude, &rate, time_s, wheels)
     }
 
     /// Whether accelerations are linear between nodes, by the intervals' jerks, rather than held.

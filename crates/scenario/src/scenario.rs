@@ -23,7 +23,7 @@ use crate::start_loads;
 use crate::system_description::SystemDescription;
 use crate::system_reference::resolve_system;
 use crate::waypoints::{Waypoint, check_company, end_in_last, waypoints};
-use crate::wheels::{Wheel, end_momenta, reaction, stored};
+use crate::wheels::{Wheel, any_works, end_momenta, reaction, stored};
 
 pub use crate::horizon::{FreeDuration, Horizon, LONGEST_S, MAX_STEPS};
 pub use crate::maneuver::{Maneuver, Slew};
@@ -120,8 +120,7 @@ impl Scenario {
             None => None,
         };
         let wheels = Wheel::all_from_file(&scenario.wheels, &place.key("wheels"))?;
-        let wheels_turn = wheels.iter().any(|wheel| !wheel.failed);
-        if environment.is_none() && !wheels_turn || maneuver == Maneuver::Detumble {
+        if environment.is_none() && !any_works(&wheels) || maneuver == Maneuver::Detumble {
             let momentum_note =
                 check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
             notes.extend(momentum_note);
@@ -312,14 +311,18 @@ impl Scenario {
         self.environment.as_ref()
     }
 
+    /// The same where anything in it acts.
+    pub fn acting_environment(&self) -> Option<&Environment> {
+        self.environment.as_ref().filter(|environment| environment.acts())
+    }
+
     /// Whether the base may drift at the end of a slew as its angular momentum has it: what comes from outside is
     /// nothing that a plan could take away, unless wheels hold it that are not asked to give up what they store. The
     /// rate that shall be zero is then the one beyond that drift.
     pub fn may_drift(&self) -> bool {
-        let wheels_work = self.wheels.iter().any(|wheel| !wheel.failed);
         let wheels_give_up = self.weights.wheel_momentum > 0.0
             || self.end_wheel_momenta_n_m_s.iter().any(Option::is_some);
-        let wheels_hold = wheels_work && !wheels_give_up;
+        let wheels_hold = any_works(&self.wheels) && !wheels_give_up;
         self.environment.is_some() && self.maneuver != Maneuver::Detumble && !wheels_hold
     }
 
@@ -333,8 +336,8 @@ impl Scenario {
         time: T,
         (momenta, torques): (&[T], &[T]),
     ) -> Option<External<T>> {
-        let environment = self.environment.as_ref().filter(|environment| environment.acts());
-        let surrounding = environment.map(|environment| environment.external(attitude, time));
+        let surrounding =
+            self.acting_environment().map(|environment| environment.external(attitude, time));
         if self.wheels.is_empty() {
             return surrounding;
         }

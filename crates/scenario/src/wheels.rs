@@ -87,6 +87,17 @@ impl Wheel {
     }
 }
 
+/// Whether any wheel works.
+pub fn any_works(wheels: &[Wheel]) -> bool {
+    wheels.iter().any(|wheel| !wheel.failed)
+}
+
+/// What wheels store at the start together, body axes, N m s.
+pub fn stored_at_start<'w>(wheels: impl IntoIterator<Item = &'w Wheel>) -> Vector3<f64> {
+    let wheels = wheels.into_iter();
+    wheels.map(|wheel| Vector3::from(wheel.axis) * wheel.initial_momentum_n_m_s).sum()
+}
+
 /// What wheels do to a base that turns at ω, as a couple on it, body axes, N m: −(τ + ω × h), with the momentum h that
 /// is in store and the torque τ that is given, its rate.
 pub fn reaction<T: Scalar>(

@@ -8,6 +8,7 @@ use righting_scenario::scenario::{Horizon, Scenario};
 
 use crate::goal::Goal;
 use crate::jerk;
+use crate::joints::Accelerations;
 use crate::ledger::{Ledger, Worst};
 use crate::limits;
 use crate::loads;
@@ -15,7 +16,7 @@ use crate::model::{Motion, State};
 use crate::momentum;
 use crate::pointing;
 use crate::requirements::Requirements;
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, Span};
 use crate::tolerances::{Measures, at_rest_deg_s};
 use crate::waypoints;
 use crate::wheels;
@@ -183,12 +184,12 @@ fn check_torques(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Led
         let control = trajectory.joint_accelerations_at(k);
         let state = State::of_node(node);
         let interval = &trajectory.intervals()[k.min(trajectory.steps() - 1)];
-        let store = asked.wheels.store(node, interval);
-        let outside = asked.surroundings.at(&state.attitude, node.time_s).with_wheels(
-            &state,
-            &store.momentum,
-            &store.torque,
-        );
+        let span = Span {
+            start_s: node.time_s,
+            accelerations: Accelerations::of(interval),
+            store: asked.wheels.store(node, interval),
+        };
+        let outside = span.outside(&asked.surroundings, &state, 0.0);
         model.joint_torques(&state, &control, &outside, &mut motion, torques);
     }
     // Forces and speeds of joints that slide are measured by the system's size.

@@ -54,8 +54,7 @@ impl StepTorques {
                     let before_s = (places[before] + 1.0) * half_s;
                     let followed = integrator.advance(&mut x, duration_s, |after_s, x, rate| {
                         let after_s = before_s + after_s;
-                        let state = State::from_slice(x).expect("as long as its own state");
-                        let external = trajectory.external(scenario, (k, after_s), &state);
+                        let external = trajectory.external(scenario, (k, after_s), x);
                         let control = control(after_s);
                         let derivative = model.state_derivative(x, &control, external.as_ref());
                         rate.copy_from_slice(&derivative);
@@ -72,7 +71,7 @@ impl StepTorques {
                     &state.joint_angles,
                     &state.joint_rates,
                     &control(after_s),
-                    trajectory.external(scenario, (k, after_s), &state).as_ref(),
+                    trajectory.external(scenario, (k, after_s), &x).as_ref(),
                 );
                 of_joints
                     .iter_mut()

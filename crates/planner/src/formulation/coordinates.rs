@@ -69,7 +69,7 @@ impl Coordinates {
             momentum: attitude.to_inertial(&h_body),
             center,
             wheel_set,
-            environment: scenario.environment().filter(|it| it.acts()).cloned().map(Arc::new),
+            environment: scenario.acting_environment().cloned().map(Arc::new),
             system,
             locked,
             has_jerk: scenario.system().limits_jerk(),

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use righting_multibody::External;
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
-use righting_scenario::wheels::{Wheel, reaction};
+use righting_scenario::wheels::{Wheel, reaction, stored_at_start};
 
 /// The wheels of a scenario. Failed ones keep what they store, so it is no state.
 #[derive(Clone)]
@@ -49,12 +49,10 @@ impl Working {
 impl Wheels {
     pub(super) fn new(scenario: &Scenario) -> Self {
         let all = scenario.wheels();
-        let failed = all.iter().filter(|wheel| wheel.failed);
-        let kept = failed.map(|wheel| Vector3::from(wheel.axis) * wheel.initial_momentum_n_m_s);
         Self {
             all: all.into(),
             working: all.iter().filter(|wheel| !wheel.failed).map(Working::new).collect(),
-            failed: kept.sum(),
+            failed: stored_at_start(all.iter().filter(|wheel| wheel.failed)),
         }
     }
 

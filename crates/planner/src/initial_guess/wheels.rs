@@ -32,6 +32,8 @@ impl InitialGuesses<'_> {
         };
         let total = attitude(&guess, 0).to_inertial(&in_store)
             + self.scenario.initial().angular_momentum_n_m_s;
+        let of_failed = self.coordinates.wheel_set().stored(&vec![0.0; wheels.len()]);
+        let least_shares = self.least_shares();
         let mut before: Vec<f64> = guess.states.row(0)[states.clone()].to_vec();
         for node in 1..=self.steps {
             let here = attitude(&guess, node);
@@ -45,9 +47,8 @@ impl InitialGuesses<'_> {
                 false => Vector3::zeros(),
             };
             let posture = self.coordinates.joint_angles(guess.states.row(node)).to_vec();
-            let of_failed = self.coordinates.wheel_set().stored(&vec![0.0; wheels.len()]);
             let wanted = here.to_body(&total) - system.locked_inertia(&posture) * rate - of_failed;
-            let shares = self.least_shares(&wanted);
+            let shares = least_shares(&wanted);
             let row = guess.states.row_mut(node);
             for (index, wheel) in wheels.iter().enumerate() {
                 let most = wheel.rate_max * step_s;
@@ -74,7 +75,7 @@ impl InitialGuesses<'_> {
         let posture = &self.scenario.initial().joint_angles_rad;
         let inertia = self.scenario.system().model.locked_inertia(posture);
         let needed = inertia * slew.axis * slew.angle_rad.abs().max(smallest_rad);
-        let shares = self.least_shares(&needed);
+        let shares = self.least_shares()(&needed);
         let pairs = wheels.iter().zip(shares.iter());
         let stored: Vector3<f64> = pairs.clone().map(|(wheel, share)| wheel.full * *share).sum();
         let duration_s = self.scenario.horizon().duration_s;
@@ -90,14 +91,18 @@ impl InitialGuesses<'_> {
         })
     }
 
-    /// The smallest shares of the wheels that work whose momentum is as near to a vector in body axes as it can be.
-    fn least_shares(&self, wanted: &Vector3<f64>) -> DVector<f64> {
+    /// What gives the smallest shares of the wheels that work whose momentum is as near to a vector in body axes as it
+    /// can be.
+    fn least_shares(&self) -> impl Fn(&Vector3<f64>) -> DVector<f64> {
         let wheels = self.coordinates.wheel_set().working();
         let columns: Vec<Vector3<f64>> = wheels.iter().map(|wheel| wheel.full).collect();
         let full = Matrix3xX::from_columns(&columns);
         let decomposition = full.svd(true, true);
         let most = decomposition.singular_values.max();
-        let solved = decomposition.solve(wanted, RANK * most);
-        solved.unwrap_or_else(|_| DVector::zeros(wheels.len()))
+        let count = wheels.len();
+        move |wanted| {
+            let solved = decomposition.solve(wanted, RANK * most);
+            solved.unwrap_or_else(|_| DVector::zeros(count))
+        }
     }
 }
