@@ -117,7 +117,7 @@ impl Bodies {
     }
 
     /// The same bodies with each changed; their joints and who carries whom stay.
-    pub fn changed(&self, change: impl Fn(&JointedBody) -> JointedBody) -> Self {
+    pub fn changed(&self, change: impl FnMut(&JointedBody) -> JointedBody) -> Self {
         Self { list: self.list.iter().map(change).collect(), outward: self.outward.clone() }
     }
 

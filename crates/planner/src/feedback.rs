@@ -16,6 +16,8 @@
 //! Control: Linear Quadratic Methods*, section 2.4). Accelerations and the rates that they lead to are kept
 //! within the joints' limits.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 use righting_multibody::Quaternion;
 use righting_results::Trajectory;
@@ -23,7 +25,7 @@ use righting_scenario::file::Formulation;
 use righting_scenario::{Maneuver, Scenario};
 
 use crate::formulation::Coordinates;
-use crate::measured::Measured;
+use crate::measured::{Measured, Measurement};
 use crate::planner::PlanError;
 use crate::scaling::Scaling;
 
@@ -35,6 +37,9 @@ const JERKS: &str =
 const DIFFERENCE: f64 = 1e-5;
 
 /// Gains about the plan of a slew.
+///
+/// A clone shares the gains and may follow another plan.
+#[derive(Clone)]
 pub struct Feedback {
     scaling: Scaling,
     /// In units of its own.
@@ -44,7 +49,7 @@ pub struct Feedback {
     states: Vec<Vec<f64>>,
     controls: Vec<Vec<f64>>,
     /// K of each step, j × (3 + 2j).
-    gains: Vec<DMatrix<f64>>,
+    gains: Arc<Vec<DMatrix<f64>>>,
 }
 
 impl Feedback {
@@ -79,19 +84,63 @@ impl Feedback {
             .map(|interval| interval.joint_accelerations_rad_s2.clone())
             .collect();
         let mut feedback =
-            Self { scaling, scenario, coordinates, states, controls, gains: Vec::new() };
-        feedback.gains = feedback.regulator();
+            Self { scaling, scenario, coordinates, states, controls, gains: Arc::default() };
+        feedback.gains = Arc::new(feedback.regulator());
         Ok(feedback)
+    }
+
+    /// Follows another plan from node `from` on: where it is at that node and the next ones, and how it accelerates the
+    /// joints from each on (j, rad/s²). The gains stay those about the first plan.
+    ///
+    /// # Panics
+    /// There are not so many steps, or not one joint value a joint.
+    pub fn follow(&mut self, from: usize, nodes: &[Measurement], accelerations: &[Vec<f64>]) {
+        for (step, (node, accelerations)) in nodes.iter().zip(accelerations).enumerate() {
+            self.states[from + step] = self.measured(from + step, &node.as_measured());
+            self.controls[from + step] = self.scaling.accelerations_measured(accelerations);
+        }
+    }
+
+    /// K of each step in SI units, j × (3 + 2j): rad/s² (of a joint that slides m/s²) of each joint per rad that the base is
+    /// turned from its planned attitude, about each of its axes, and per unit that the joints' coordinates and rates are
+    /// off the plan's.
+    pub fn gains(&self) -> Vec<DMatrix<f64>> {
+        let (joints, time_s) = (&self.scaling.joints, self.scaling.units.time_s);
+        let of_error = |entry: usize| match entry {
+            0..3 => 1.0,
+            _ if entry < 3 + joints.len() => 1.0 / joints[entry - 3],
+            _ => time_s / joints[entry - 3 - joints.len()],
+        };
+        let in_si = |gain: &DMatrix<f64>| {
+            DMatrix::from_fn(gain.nrows(), gain.ncols(), |joint, entry| {
+                gain[(joint, entry)] * of_error(entry) * joints[joint] / time_s.powi(2)
+            })
+        };
+        self.gains.iter().map(in_si).collect()
+    }
+
+    /// The state at a node, as far as it is measured; the rest is the plan's.
+    fn measured(&self, node: usize, measured: &Measured<'_>) -> Vec<f64> {
+        let here = measured.state(&self.scaling);
+        let time = self.scenario.horizon().time_s(node);
+        let mut here = self.coordinates.of_free_floating_state(&here, time);
+        let momentum = self.coordinates.momentum();
+        here[momentum.clone()].copy_from_slice(&self.states[node][momentum]);
+        here
     }
 
     /// Joint accelerations (j, rad/s²) of a step that begins where it is measured.
     ///
+    /// What is not finite corrects nothing.
+    ///
     /// # Panics
     /// There is no such step, or not one joint value a joint.
     pub fn accelerations(&self, step: usize, measured: &Measured<'_>) -> Vec<f64> {
-        let here = measured.state(&self.scaling);
-        let here = self.coordinates.of_free_floating_state(&here, 0.0);
+        let here = self.measured(step, measured);
         let correction = &self.gains[step] * self.off(&here, &self.states[step]);
+        if !correction.iter().all(|value| value.is_finite()) {
+            return self.scaling.accelerations(&self.controls[step]);
+        }
         let limits = self.scenario.system().joint_limits.iter();
         let step_s = self.scenario.horizon().step_s();
         let rates = self.coordinates.joint_rates(&here);

@@ -14,7 +14,7 @@ use righting_scenario::error::ShapeError;
 use righting_scenario::file::Formulation;
 
 use crate::formulation::StageLimits;
-use crate::measured::Measured;
+use crate::measured::{Measured, Measurement};
 use crate::planner::PlanError;
 use crate::scaling::Scaling;
 use crate::search::{Model, settings, substeps_of_spin};
@@ -126,6 +126,80 @@ impl Replanner {
         Ok(Self { problem: Arc::new(problem), point: solution.point })
     }
 
+    /// Where the model has the maneuver from node `node` on, where it is measured, with accelerations of its joints
+    /// (j a step, rad/s²): there, and after every step.
+    ///
+    /// # Panics
+    /// There are not so many steps, or not one joint value a joint.
+    pub fn ahead(
+        &self,
+        node: usize,
+        measured: &Measured<'_>,
+        accelerations: &[Vec<f64>],
+    ) -> Vec<Measurement> {
+        let Problem { scaling, model, grid, .. } = &*self.problem;
+        let measurement = |x: &[f64]| {
+            let state = scaling.state(model.coordinates.free_floating_state(x));
+            Measurement {
+                attitude: state.attitude.normalized(),
+                joint_angles_rad: state.joint_angles,
+                joint_rates_rad_s: state.joint_rates,
+            }
+        };
+        let mut state = self.state(node, measured);
+        let mut ahead = vec![measurement(&state)];
+        for accelerations in accelerations {
+            let controls = scaling.accelerations_measured(accelerations);
+            state = model.coordinates.moved_on(&state, &controls, grid.step_s());
+            ahead.push(measurement(&state));
+        }
+        ahead
+    }
+
+    /// The state at a node as it is measured.
+    ///
+    /// From a rate that is measured on a wrong model, no better momentum would follow than the plan's.
+    fn state(&self, node: usize, measured: &Measured<'_>) -> Vec<f64> {
+        let Problem { scaling, scenario, model, momenta, .. } = &*self.problem;
+        let here = measured.state(scaling);
+        let mut here =
+            model.coordinates.of_free_floating_state(&here, scenario.horizon().time_s(node));
+        let momentum = model.coordinates.momentum();
+        here[momentum].copy_from_slice(momenta.row(node));
+        here
+    }
+
+    /// The same with another model of the spacecraft, such as masses estimated on the way; it goes on from where this
+    /// one is.
+    ///
+    /// # Errors
+    /// [`PlanError::Model`] for masses beyond all measure, [`PlanError::Ocp`] where its functions cannot be compiled.
+    pub fn adapted(&self, scenario: &Scenario) -> Result<Self, PlanError> {
+        let before = &*self.problem;
+        let fixed = match scenario.free_duration() {
+            Some(_) => {
+                let duration_s = before.scaling.seconds(before.grid.duration_s());
+                scenario.clone().with_duration(duration_s)
+            }
+            None => scenario.clone(),
+        };
+        let (scenario, scaling) = before.scaling.clone().measured(&fixed)?;
+        let mut model = Model::compile(
+            &scenario,
+            Formulation::Reduced,
+            NonZeroUsize::MIN,
+            &StageLimits::asked(),
+        )?;
+        let substeps = before.model.asked_functions().substeps();
+        if substeps > NonZeroUsize::MIN {
+            model.take_substeps(substeps)?;
+        }
+        let (settings, grid, momenta) =
+            (before.settings.clone(), before.grid, before.momenta.clone());
+        let problem = Problem { scaling, scenario, model, settings, grid, momenta };
+        Ok(Self { problem: Arc::new(problem), point: self.point.clone() })
+    }
+
     /// Plans the steps from node `node` on, where the maneuver is as measured. None where the solve does not
     /// converge, or takes longer than `deadline`: the last plan then stands.
     ///
@@ -141,16 +215,11 @@ impl Replanner {
         deadline: Option<Duration>,
     ) -> Result<Option<Replan>, OcpError> {
         let started = Instant::now();
-        let Problem { scaling, scenario, model, settings, grid, momenta } = &*self.problem;
+        let Problem { scaling, scenario, model, settings, grid, .. } = &*self.problem;
         let steps = grid.steps() - node;
         let start = self.point.after(self.point.steps() - steps);
         let grid = Grid::new(grid.step_s() * steps as f64, steps)?;
-        let here = measured.state(scaling);
-        let mut here =
-            model.coordinates.of_free_floating_state(&here, scenario.horizon().time_s(node));
-        // From a rate that is measured on a wrong model, no better momentum would follow than the plan's.
-        let momentum = model.coordinates.momentum();
-        here[momentum].copy_from_slice(momenta.row(node));
+        let here = self.state(node, measured);
         let mut program = model.program_from(grid, &here)?;
         let is_late = || deadline.is_some_and(|deadline| started.elapsed() > deadline);
         let watch = |_: &Iteration| if is_late() { Control::Stop } else { Control::Continue };

@@ -136,7 +136,10 @@ impl Scaling {
     }
 
     /// The scenario in these measures.
-    fn measured(self, scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
+    ///
+    /// # Errors
+    /// As [`applied`](Self::applied).
+    pub(crate) fn measured(self, scenario: &Scenario) -> Result<(Scenario, Self), ModelError> {
         let measured = scenario.in_units(&self.units, self.objective)?;
         let weights = match scenario.is_end_hard() {
             true => hard(&measured),
@@ -163,9 +166,19 @@ impl Scaling {
         seconds / self.units.time_s
     }
 
+    /// A duration in these units, in seconds.
+    pub(crate) fn seconds(&self, duration: f64) -> f64 {
+        duration * self.units.time_s
+    }
+
     /// Joint accelerations in SI units.
     pub(crate) fn accelerations(&self, measured: &[f64]) -> Vec<f64> {
         self.of_joints(measured, self.units.time_s.powi(2))
+    }
+
+    /// Joint accelerations of SI units in these.
+    pub(crate) fn accelerations_measured(&self, accelerations: &[f64]) -> Vec<f64> {
+        self.joints_measured(accelerations, self.units.time_s.powi(2))
     }
 
     /// Joint coordinates over a time in SI units.

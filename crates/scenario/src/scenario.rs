@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nalgebra::Vector3;
-use righting_multibody::{External, JointKind, Quaternion};
+use righting_multibody::{External, JointKind, Quaternion, System};
 use righting_scalar::Scalar;
 use sha2::{Digest, Sha256};
 
@@ -284,6 +284,11 @@ impl Scenario {
     /// The same scenario with other weights; [`resolved`](Self::resolved) stays as it was.
     pub fn with_weights(self, weights: Weights) -> Self {
         Self { weights, ..self }
+    }
+
+    /// The same scenario with other masses; [`resolved`](Self::resolved) stays as it was.
+    pub fn with_model(self, model: System) -> Self {
+        Self { system: SystemDescription { model, ..self.system }, ..self }
     }
 
     /// Whether the end is met as well as numbers allow, rather than traded for effort.
