@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use righting_export::{
-    JointTrajectory, SpiceKernels, aem, basilisk, ck, mat, mjcf, mujoco, npz, stk, urdf,
+    JointTrajectory, PlannedGains, SpiceKernels, aem, basilisk, ck, mat, mjcf, mujoco, npz, stk,
+    urdf,
 };
+use righting_planner::Feedback;
 use righting_report::maneuver_phrase;
 use righting_verifier::Verified;
 
@@ -84,6 +86,12 @@ fn exported(
             let motion = JointTrajectory::new(scenario, trajectory)?;
             let is_json = file.extension().is_some_and(|extension| extension == "json");
             if is_json { motion.to_json() } else { motion.to_yaml() }.into_bytes()
+        }
+        Format::Gains => {
+            let gains = Feedback::new(scenario, trajectory)?.gains();
+            let gains = PlannedGains { trajectory, gains: &gains };
+            let is_table = file.extension().is_some_and(|extension| extension == "csv");
+            if is_table { gains.to_csv().into_bytes() } else { gains.to_npz()? }
         }
         Format::Mujoco => mujoco(scenario, solution, trajectory, &maneuver)?,
         Format::Basilisk => basilisk(scenario, solution, trajectory, &maneuver)?,

@@ -88,6 +88,8 @@ pub const CK_FILE: &str = "attitude.bc";
 const CLOCK_FILE: &str = "attitude.tsc";
 /// The frame of the C-kernel.
 const FRAME_FILE: &str = "attitude.tf";
+/// The gains about a plan.
+pub const GAINS_FILE: &str = "gains.npz";
 /// The script that flies the plan in Basilisk.
 pub const BASILISK_FILE: &str = "fly_basilisk.py";
 /// The script that flies the plan in MuJoCo.
@@ -95,7 +97,7 @@ pub const MUJOCO_FILE: &str = "fly_mujoco.py";
 
 /// Everything that belongs to a plan, but for the PNGs beside the figures. What says that the rest is
 /// whole comes first: it is the first to be removed.
-const ALL: [&str; 26] = [
+const ALL: [&str; 27] = [
     SOLUTION_FILE,
     TRAJECTORY_FILE,
     ATTITUDE_FILE,
@@ -122,6 +124,7 @@ const ALL: [&str; 26] = [
     FRAME_FILE,
     BASILISK_FILE,
     MUJOCO_FILE,
+    GAINS_FILE,
 ];
 
 /// Names of everything that belongs to a plan.

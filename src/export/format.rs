@@ -25,6 +25,9 @@ pub enum Format {
     Npz,
     /// MATLAB file of level 5, one matrix a group of columns: trajectory.mat.
     Mat,
+    /// The plan of a slew with gains that correct it on the way, NumPy archive, or a table where FILE ends in .csv:
+    /// gains.npz.
+    Gains,
     /// Python script that flies the plan in Basilisk by its torques alone: fly_basilisk.py.
     Basilisk,
     /// Python script that flies the plan in MuJoCo by its torques alone: fly_mujoco.py.
@@ -43,6 +46,7 @@ impl Format {
             Self::Aem => files::AEM_FILE,
             Self::Npz => files::NPZ_FILE,
             Self::Mat => files::MAT_FILE,
+            Self::Gains => files::GAINS_FILE,
             Self::Basilisk => files::BASILISK_FILE,
             Self::Mujoco => files::MUJOCO_FILE,
         }
