@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use righting_analysis::Impossible;
 use righting_export::ExportError;
+use righting_flight::ConversationError;
 use righting_ipopt::LoadError;
 use righting_planner::{PlanError, ReachError};
 use righting_report::{ReportError, status_phrase};
@@ -129,6 +130,23 @@ pub enum Failure {
         /// Whether the plan falls short of its target rather than of what it claims.
         falls_short: bool,
     },
+    /// A joint was named that the arm does not have.
+    #[error("--stick: {}", Mismatch::new(format_args!("joint {found}"), format_args!("one of joints 1 to {joints}")))]
+    NoSuchJoint {
+        /// Which, counted from one.
+        found: usize,
+        /// How many there are.
+        joints: usize,
+    },
+    /// A plant at the other end of a pipe does not answer as it should.
+    #[error(transparent)]
+    Conversation(#[from] ConversationError),
+    /// The user asked to stop flying.
+    #[error("interrupted: the table has the {flown} flights until then")]
+    FlightsInterrupted {
+        /// How many were flown.
+        flown: usize,
+    },
     /// The user asked to stop.
     #[error("interrupted{}", if *has_plan { ": the plan until then is verified, but not optimal" } else { "" })]
     Interrupted {
@@ -141,7 +159,7 @@ impl From<PlanError> for Failure {
     fn from(error: PlanError) -> Self {
         match error {
             PlanError::Impossible(reason) => Self::Impossible(reason),
-            PlanError::NotReplanned(what) => Self::Usage(what),
+            PlanError::NotReplanned(what) | PlanError::NoFeedback(what) => Self::Usage(what),
             error => Self::NotPlanned(error),
         }
     }
@@ -181,14 +199,16 @@ impl Failure {
             | Self::Stdout(_)
             | Self::NotReady { .. }
             | Self::NoOptimizer(_)
-            | Self::NotSearched(_) => 2,
+            | Self::NotSearched(_)
+            | Self::NoSuchJoint { .. }
+            | Self::Conversation(_) => 2,
             Self::NoPlan { .. }
             | Self::NotOptimal { .. }
             | Self::NotPlanned(_)
             | Self::Impossible(_)
             | Self::OutOfReach { .. } => 3,
             Self::Unproven { .. } => 4,
-            Self::Interrupted { .. } => 130,
+            Self::Interrupted { .. } | Self::FlightsInterrupted { .. } => 130,
         }
     }
 
@@ -202,6 +222,7 @@ impl Failure {
                 | Self::OutOfReach { .. }
                 | Self::Unproven { .. }
                 | Self::Interrupted { .. }
+                | Self::FlightsInterrupted { .. }
         )
     }
 }

@@ -15,6 +15,7 @@ mod envelope;
 mod explain;
 mod export;
 mod figures;
+mod fly;
 #[cfg(target_os = "linux")]
 mod folder_faults;
 mod full_disk;

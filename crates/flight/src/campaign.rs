@@ -1,100 +1,41 @@
 //! One plan flown many times.
 
-use std::time::Duration;
-
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
 use righting_planner::planner::PlanError;
-use righting_planner::{Feedback, Replanner};
 use righting_results::Trajectory;
+use righting_scenario::file::SystemReference;
 use righting_scenario::{Scenario, file};
 use righting_verifier::model::State;
 
 use crate::end::End;
+use crate::flight::Flight;
+use crate::guidance::{Guidance, Log};
+use crate::joint_drives::DrivenJoints;
 use crate::plant::Plant;
-use crate::sensors::Sensors;
-use crate::spreads::Spreads;
+use crate::recording::{Motion, Recording, RecordingError};
+use crate::sensors::lost;
+use crate::settings::Settings;
 
-/// What is done about a spacecraft that is not as planned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// Nothing: the plan is flown as it is.
-    OpenLoop,
-    /// Its gains correct every step from what is measured then.
-    Feedback,
-    /// The rest is planned anew every [`period`](Settings::period_s).
-    Replan,
-}
-
-/// How a plan is flown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// How far the plants are from the model.
-    pub spreads: Spreads,
-    /// What is measured.
-    pub sensors: Sensors,
-    /// What is done about it.
-    pub control: Control,
-    /// Time from one replan to the next, s; rounded to whole steps of the plan, at least one.
-    pub period_s: f64,
-    /// A replan that takes longer is missed, and the last plan goes on; none if there is no deadline.
-    pub deadline: Option<Duration>,
-    /// Seed of all draws.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    /// Masses and inertias off by up to 10 %, a replan a second, perfect sensors.
-    fn default() -> Self {
-        Self {
-            spreads: Spreads { masses: 0.1, inertias: 0.1, ..Spreads::default() },
-            sensors: Sensors::default(),
-            control: Control::Replan,
-            period_s: 1.0,
-            deadline: None,
-            seed: 0,
-        }
-    }
-}
-
-/// One plant, flown both ways.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Flight {
-    /// Which flight, counted from zero.
-    pub number: usize,
-    /// The end of the plan flown as it is.
-    pub open_loop: End,
-    /// The end with what is done about it.
-    pub flown: End,
-    /// How long each replan took.
-    pub replans: Vec<Duration>,
-    /// Replans that were missed: not converged, too late, or nothing sensible measured.
-    pub missed: usize,
-}
+/// Streams of a generator that flights take: masses and sensors from the one of their number, drives from the one
+/// so far after it.
+const DRIVES_STREAM: u64 = 1 << 32;
 
 /// A plan to be flown many times.
 pub struct Campaign<'a> {
     scenario: &'a Scenario,
     plan: &'a Trajectory,
     settings: Settings,
-    pilot: Pilot,
-}
-
-/// What flies a plant, made once for all flights.
-enum Pilot {
-    OpenLoop,
-    Feedback(Box<Feedback>),
     /// As it is at the start: each flight has its own clone.
-    Replan(Replanner),
+    guidance: Guidance,
 }
 
 impl<'a> Campaign<'a> {
     /// Of a plan of the scenario.
     ///
     /// # Errors
-    /// Those of [`Feedback::new`] or [`Replanner::new`], as the settings have it; [`PlanError::NotReplanned`] for a
-    /// plan with wheels.
+    /// Those of [`Guidance::new`]; [`PlanError::NotReplanned`] for a plan with wheels.
     pub fn new(
         scenario: &'a Scenario,
         plan: &'a Trajectory,
@@ -103,12 +44,8 @@ impl<'a> Campaign<'a> {
         if !scenario.wheels().is_empty() {
             return Err(PlanError::NotReplanned("wheels: plans with wheels are not flown"));
         }
-        let pilot = match settings.control {
-            Control::OpenLoop => Pilot::OpenLoop,
-            Control::Feedback => Pilot::Feedback(Box::new(Feedback::new(scenario, plan)?)),
-            Control::Replan => Pilot::Replan(Replanner::new(scenario, plan)?),
-        };
-        Ok(Self { scenario, plan, settings, pilot })
+        let guidance = Guidance::new(scenario, plan, &settings)?;
+        Ok(Self { scenario, plan, settings, guidance })
     }
 
     /// The first `count` flights, on all cores, in their order. Once `is_stopped`, no further one begins.
@@ -119,72 +56,100 @@ impl<'a> Campaign<'a> {
 
     /// Flight `number`, counted from zero.
     pub fn flight(&self, number: usize) -> Flight {
-        let mut draws = ChaCha8Rng::seed_from_u64(self.settings.seed);
-        draws.set_stream(number as u64);
+        let (system, draws) = self.spacecraft(number);
+        let open_loop = self.fly_open_loop(&system, number, &mut |_, _| ());
+        let (flown, log) = self.fly_guided(&system, number, draws, &mut |_, _| ());
+        Flight { number, open_loop: Some(open_loop), flown, log }
+    }
+
+    /// Flight `number` with all of its motions.
+    ///
+    /// # Errors
+    /// [`RecordingError`].
+    pub fn recorded(&self, number: usize) -> Result<Recording, RecordingError> {
+        let (system, draws) = self.spacecraft(number);
+        let plant = SystemReference::Inline(Box::new(system.clone()));
+        let scenario = self.scenario.varied(|file| file.system = plant)?;
+        let mut motion = Motion::default();
+        let open_loop_end = self.fly_open_loop(&system, number, &mut |t, x| motion.push(t, x));
+        let open_loop = motion.trajectory(&scenario)?;
+        let mut motion = Motion::default();
+        let (flown_end, log) =
+            self.fly_guided(&system, number, draws, &mut |t, x| motion.push(t, x));
+        let flown = motion.trajectory(&scenario)?;
+        if !open_loop_end.is_finite() || !flown_end.is_finite() {
+            return Err(RecordingError::Lost);
+        }
+        let flight = Flight { number, open_loop: Some(open_loop_end), flown: flown_end, log };
+        Ok(Recording { flight, scenario, open_loop, flown })
+    }
+
+    /// The system of a flight, and what its sensors draw from.
+    fn spacecraft(&self, number: usize) -> (file::System, ChaCha8Rng) {
+        let mut draws = self.stream(number as u64);
         let system = self.settings.spreads.applied(self.scenario.resolved_system(), &mut draws);
-        let mut plant = self.plant(&system);
-        for (step, interval) in self.plan.intervals().iter().enumerate() {
-            plant.advance(&interval.joint_accelerations_rad_s2, self.step_s(step));
-        }
-        let open_loop = End::of(self.scenario, &plant.state());
-
-        let mut flight =
-            Flight { number, open_loop, flown: open_loop, replans: Vec::new(), missed: 0 };
-        let mut plant = self.plant(&system);
-        match &self.pilot {
-            Pilot::OpenLoop => return flight,
-            Pilot::Feedback(feedback) => self.fly_with_feedback(feedback, &mut plant, &mut draws),
-            Pilot::Replan(replanner) => {
-                self.fly_replanned(replanner.clone(), &mut plant, &mut draws, &mut flight);
-            }
-        }
-        flight.flown = End::of(self.scenario, &plant.state());
-        flight
+        (system, draws)
     }
 
-    fn fly_with_feedback(&self, feedback: &Feedback, plant: &mut Plant, draws: &mut ChaCha8Rng) {
-        for step in 0..self.plan.steps() {
-            let measured = self.settings.sensors.measure(&plant.state(), draws);
-            let control = feedback.accelerations(step, &measured.as_measured());
-            plant.advance(&control, self.step_s(step));
-        }
+    fn stream(&self, stream: u64) -> ChaCha8Rng {
+        let mut draws = ChaCha8Rng::seed_from_u64(self.settings.seed);
+        draws.set_stream(stream);
+        draws
     }
 
-    fn fly_replanned(
+    fn fly_open_loop(
         &self,
-        mut replanner: Replanner,
-        plant: &mut Plant,
-        draws: &mut ChaCha8Rng,
-        flight: &mut Flight,
-    ) {
-        let intervals = self.plan.intervals().iter();
-        let controls = intervals.map(|interval| interval.joint_accelerations_rad_s2.clone());
-        let mut controls: Vec<Vec<f64>> = controls.collect();
-        let step_s = self.plan.end().time_s / controls.len() as f64;
-        let every = ((self.settings.period_s / step_s).round() as usize).max(1);
-        for step in 0..controls.len() {
-            if step > 0 && step % every == 0 {
-                let measured = self.settings.sensors.measure(&plant.state(), draws);
-                // What was measured is refused where it is not finite: that replan is missed too.
-                match replanner.replan(step, &measured.as_measured(), self.settings.deadline) {
-                    Ok(Some(replan)) => {
-                        flight.replans.push(replan.time);
-                        controls.splice(step.., replan.accelerations_rad_s2);
-                    }
-                    Ok(None) | Err(_) => flight.missed += 1,
-                }
-            }
-            plant.advance(&controls[step], self.step_s(step));
+        system: &file::System,
+        number: usize,
+        record: &mut dyn FnMut(f64, &State<'_>),
+    ) -> End {
+        let (mut plant, mut joints) = self.plant(system, number);
+        for (step, interval) in self.plan.intervals().iter().enumerate() {
+            record(self.guidance.time_s(step), &plant.state());
+            self.advance(&mut plant, &mut joints, &interval.joint_accelerations_rad_s2, step);
         }
+        record(self.plan.end().time_s, &plant.state());
+        End::of(self.scenario, &plant.state())
     }
 
-    fn plant(&self, system: &file::System) -> Plant {
+    fn fly_guided(
+        &self,
+        system: &file::System,
+        number: usize,
+        mut draws: ChaCha8Rng,
+        record: &mut dyn FnMut(f64, &State<'_>),
+    ) -> (End, Log) {
+        let Settings { faults, sensors, .. } = self.settings;
+        let (mut plant, mut joints) = self.plant(system, number);
+        let mut guidance = self.guidance.clone();
+        for step in 0..guidance.steps() {
+            record(guidance.time_s(step), &plant.state());
+            let measured = guidance.asks_for_measurement(step).then(|| {
+                let is_lost = faults.loses_measurement(&mut draws);
+                let measured = sensors.measure(&plant.state(), &mut draws);
+                if is_lost { lost(self.plan.joints()) } else { measured }
+            });
+            let misses = guidance.is_replanned(step) && faults.misses_replan(&mut draws);
+            let measured = measured.as_ref().map(|measured| measured.as_measured());
+            let commands = guidance.command(step, measured, misses);
+            self.advance(&mut plant, &mut joints, &commands, step);
+        }
+        record(self.plan.end().time_s, &plant.state());
+        (End::of(self.scenario, &plant.state()), guidance.log().clone())
+    }
+
+    fn plant(&self, system: &file::System, number: usize) -> (Plant, DrivenJoints) {
         let environment = self.scenario.resolved().environment.as_ref();
-        Plant::new(system, environment, &State::of_node(self.plan.start()))
+        let plant = Plant::new(system, environment, &State::of_node(self.plan.start()));
+        let Settings { drives, faults, .. } = self.settings;
+        let draws = self.stream(DRIVES_STREAM + number as u64);
+        let joints = DrivenJoints::new(drives, faults.stuck, self.plan.joints(), draws);
+        (plant, joints)
     }
 
-    fn step_s(&self, step: usize) -> f64 {
-        let nodes = self.plan.nodes();
-        nodes[step + 1].time_s - nodes[step].time_s
+    fn advance(&self, plant: &mut Plant, joints: &mut DrivenJoints, commands: &[f64], step: usize) {
+        let times = [self.guidance.time_s(step), self.guidance.step_s(step)];
+        let pushes = joints.follow(commands, plant.state().joint_rates, times);
+        pushes.iter().for_each(|push| plant.advance(&push.accelerations, push.duration_s));
     }
 }

@@ -21,21 +21,35 @@
 //! let planned = Planner::new().plan(&scenario, &mut |_| Control::Continue)?;
 //! let settings = Settings { period_s: 5.0, ..Settings::default() };
 //! let flight = Campaign::new(&scenario, &planned.trajectory, settings)?.flight(0);
-//! assert!(flight.flown.error_rad < flight.open_loop.error_rad);
+//! assert!(flight.flown.error_rad < flight.open_loop.unwrap().error_rad);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
 
 mod campaign;
+mod conversation;
 mod end;
+mod faults;
+mod flight;
+mod guidance;
+mod joint_drives;
 mod plant;
+mod recording;
 mod sensors;
+mod settings;
 mod spreads;
 mod summary;
 
-pub use campaign::{Campaign, Control, Flight, Settings};
+pub use campaign::Campaign;
+pub use conversation::{ConversationError, fly_with};
 pub use end::End;
+pub use faults::Faults;
+pub use flight::Flight;
+pub use guidance::{Guidance, Log};
+pub use joint_drives::{JointDrives, Stuck};
 pub use plant::Plant;
+pub use recording::{Recording, RecordingError};
 pub use sensors::Sensors;
+pub use settings::{Control, Settings};
 pub use spreads::Spreads;
 pub use summary::{Distribution, Latency, Summary};

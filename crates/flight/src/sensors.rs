@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use righting_multibody::Quaternion;
-use righting_planner::Measured;
+use righting_planner::Measurement;
 use righting_verifier::model::State;
 
 /// Standard deviations of what is measured, each measurement by itself.
@@ -18,21 +18,12 @@ pub struct Sensors {
     pub joint_rate_rad_s: f64,
 }
 
-/// A measurement.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Measurement {
-    pub attitude: Quaternion<f64>,
-    pub joint_angles_rad: Vec<f64>,
-    pub joint_rates_rad_s: Vec<f64>,
-}
-
-impl Measurement {
-    pub(crate) fn as_measured(&self) -> Measured<'_> {
-        Measured {
-            attitude: self.attitude,
-            joint_angles_rad: &self.joint_angles_rad,
-            joint_rates_rad_s: &self.joint_rates_rad_s,
-        }
+/// A measurement that is lost: no numbers.
+pub(crate) fn lost(joints: usize) -> Measurement {
+    Measurement {
+        attitude: Quaternion::from_array([f64::NAN; 4]),
+        joint_angles_rad: vec![f64::NAN; joints],
+        joint_rates_rad_s: vec![f64::NAN; joints],
     }
 }
 

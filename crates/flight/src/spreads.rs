@@ -28,10 +28,11 @@ impl Spreads {
             inertia.iter_mut().flatten().flatten().for_each(|entry| *entry *= factor);
         };
         let base = &mut plant.base;
-        // Of a cube, so that its inertia can differ by itself.
-        if let (Some(side_m), None) = (base.cube_side_m, base.inertia_kg_m2) {
+        // The inertia of a cube can differ by itself.
+        if let Some(side_m) = base.cube_side_m.take() {
             let moment = base.mass_kg * side_m.powi(2) / 6.0;
             base.inertia_kg_m2 = Some([[moment, 0.0, 0.0], [0.0, moment, 0.0], [0.0, 0.0, moment]]);
+            base.keep_out_radius_m.get_or_insert(side_m * 0.75_f64.sqrt());
         }
         scaled(&mut base.mass_kg, &mut base.inertia_kg_m2);
         for link in &mut plant.links {

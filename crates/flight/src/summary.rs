@@ -5,8 +5,8 @@ use std::time::Duration;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::campaign::Flight;
 use crate::end::End;
+use crate::flight::Flight;
 
 /// How values are spread; null where there are none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
@@ -48,6 +48,8 @@ pub struct Summary {
     pub completed: usize,
     /// Replans that were missed, in all.
     pub missed_replans: usize,
+    /// Measurements that were lost, in all.
+    pub lost_measurements: usize,
     /// With what is done about it.
     #[serde(flatten)]
     pub flown: Ends,
@@ -60,21 +62,23 @@ pub struct Summary {
 impl Summary {
     /// Of flights in any order.
     pub fn of(flights: &[Flight]) -> Self {
-        let is_completed =
-            |flight: &&Flight| flight.open_loop.is_finite() && flight.flown.is_finite();
-        let replans = flights.iter().flat_map(|flight| &flight.replans);
+        let is_completed = |flight: &&Flight| {
+            flight.flown.is_finite() && flight.open_loop.is_none_or(|end| end.is_finite())
+        };
+        let replans = flights.iter().flat_map(|flight| &flight.log.replans);
         let times_ms = sorted(replans.map(|time: &Duration| 1e3 * time.as_secs_f64()));
         Self {
             flights: flights.len(),
             completed: flights.iter().filter(is_completed).count(),
-            missed_replans: flights.iter().map(|flight| flight.missed).sum(),
+            missed_replans: flights.iter().map(|flight| flight.log.missed).sum(),
+            lost_measurements: flights.iter().map(|flight| flight.log.lost).sum(),
             flown: Ends::of(flights.iter().map(|flight| flight.flown)),
             replan_ms: Latency {
                 median: quantile(&times_ms, 0.5),
                 p999: quantile(&times_ms, 0.999),
                 max: times_ms.last().copied(),
             },
-            open_loop: Ends::of(flights.iter().map(|flight| flight.open_loop)),
+            open_loop: Ends::of(flights.iter().filter_map(|flight| flight.open_loop)),
         }
     }
 }

@@ -31,6 +31,7 @@ fn phrase(control: Control) -> &'static str {
         Control::OpenLoop => "open loop",
         Control::Feedback => "with feedback",
         Control::Replan => "replanned",
+        Control::Both => "replanned, with feedback",
     }
 }
 
@@ -45,7 +46,8 @@ pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
         false => end.rate_rad_s.to_degrees(),
     };
     let flown = sorted(flights.iter().map(|flight| value(&flight.flown)));
-    let open_loop = sorted(flights.iter().map(|flight| value(&flight.open_loop)));
+    let open_loop =
+        sorted(flights.iter().filter_map(|flight| flight.open_loop.as_ref().map(value)));
     let most = flown.last()?.max(*open_loop.last()?);
     let (x, unit) = match is_slew {
         true => ("Attitude error at the end [deg]", "\u{b0}"),
@@ -84,18 +86,21 @@ pub fn flights_table(
         text.write_fmt(arguments).expect("a string takes all that is written to it");
         text.push('\n');
     };
-    let Summary { flights, completed, missed_replans, .. } = summary;
+    let Summary { flights, completed, missed_replans, lost_measurements, .. } = summary;
     line(format_args!("{}: {}", scenario.name, asked::phrase(scenario)));
-    let missed = match control {
-        Control::Replan => format!(", {missed_replans} replans missed"),
-        Control::OpenLoop | Control::Feedback => String::new(),
-    };
-    line(format_args!("  {flights} flights, {completed} completed{missed}"));
-    line(format_args!("  {:<34}{:>12}{:>12}{:>12}", "", "median", "95 %", "most"));
+    let mut events = String::new();
+    if control.has_replans() {
+        events += &format!(", {missed_replans} replans missed");
+    }
+    if *lost_measurements > 0 {
+        events += &format!(", {lost_measurements} measurements lost");
+    }
+    line(format_args!("  {flights} flights, {completed} completed{events}"));
+    line(format_args!("  {:<48}{:>12}{:>12}{:>12}", "", "median", "95 %", "most"));
     let number = |value: Option<f64>| value.map_or("-".to_owned(), short);
     let mut row = |name: &str, values: [Option<f64>; 3]| {
         let [median, p95, most] = values.map(number);
-        line(format_args!("  {name:<34}{median:>12}{p95:>12}{most:>12}"));
+        line(format_args!("  {name:<48}{median:>12}{p95:>12}{most:>12}"));
     };
     let values = |of: Distribution| [of.median, of.p95, of.max];
     if scenario.maneuver.kind == ManeuverType::Slew {
