@@ -50,6 +50,12 @@ limits: setup
 	cargo build --release --locked
 	scripts/limits.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
 
+# 1,000 flights each of slews and a detumble with spacecraft that are not as planned, and MuJoCo as the spacecraft:
+# docs/flown.md. Gets a virtual environment of its own; a quarter of an hour.
+flights: setup
+	cargo build --release --locked
+	scripts/flights.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
 # What arm and wheels do alone and together, every plan replayed by Pinocchio: docs/wheels.md. Gets a virtual
 # environment of its own.
 wheels: setup

@@ -11,7 +11,7 @@ use righting_scenario::Scenario;
 use crate::settings::Settings;
 
 /// Masses are taken into the planner's model when an estimate has changed by more than this share of them.
-const NEWS: f64 = 2e-3;
+const NEWS: f64 = 1e-2;
 
 /// What flies a spacecraft along a plan: made once, and cloned for every flight.
 ///

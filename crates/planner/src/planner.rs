@@ -9,8 +9,8 @@ use righting_multibody::ModelError;
 use righting_ocp::{Control, OcpError};
 use righting_results::trajectory::Trajectory;
 use righting_results::{AttemptRecord, IterationRecord};
-use righting_scenario::Scenario;
 use righting_scenario::error::ShapeError;
+use righting_scenario::{Maneuver, Scenario};
 use righting_verifier::verify;
 
 use crate::library::PlanLibrary;
@@ -41,7 +41,7 @@ const REMEDY_TIME: Duration = Duration::from_secs(1);
 ///
 /// use righting_ocp::Control;
 /// use righting_planner::Planner;
-/// use righting_scenario::Scenario;
+/// use righting_scenario::{Maneuver, Scenario};
 ///
 /// let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
 /// let mut planner = Planner::new().threads(NonZeroUsize::MIN).time_limit(Duration::from_secs(60));
@@ -161,12 +161,12 @@ impl<'a> Planner<'a> {
             if is_late { Control::Stop } else { observer(record) }
         };
         let is_of_this = earlier.is_some_and(|earlier| is_plan_of(scenario, earlier));
-        let mut leg_attempts = Vec::new();
-        let of_legs = match earlier.is_none() && !scenario.waypoints().is_empty() {
-            true => self.planned_legs(scenario, &mut watched, &mut leg_attempts),
-            false => None,
+        let mut first_attempts = Vec::new();
+        let first = match earlier {
+            None => self.first_motion(scenario, &mut watched, &mut first_attempts),
+            Some(_) => None,
         };
-        let earlier = earlier.or(of_legs.as_ref());
+        let earlier = earlier.or(first.as_ref());
 
         let (mut measured, mut scaling) = Scaling::applied(scenario)?;
         let earlier = earlier.map(|earlier| scaling.trajectory(earlier));
@@ -190,7 +190,7 @@ impl<'a> Planner<'a> {
             (true, false) => Ending::Interrupted,
         };
         let mut planned = Planned::new(scenario, &scaling, found, ending, &self.program)?;
-        planned.solution.attempts.splice(..0, leg_attempts);
+        planned.solution.attempts.splice(..0, first_attempts);
         if self.tries_remedies {
             let threads = self.threads;
             let deadline = started.elapsed() * (1 + REMEDY_SHARE) + self.remedy_time;
@@ -213,20 +213,33 @@ impl<'a> Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// A motion to start from over the waypoints of a scenario; none where its legs were not all planned. Adds
-    /// the attempts to plan them.
-    fn planned_legs(
+    /// A motion to start from where a simpler maneuver leads to one: over waypoints that of the legs one after the other,
+    /// for a detumble on which something acts from outside that of the detumble on which nothing does: its attitude
+    /// plays no part, which makes a far better search. None where those were not all planned. Adds the attempts to plan
+    /// them.
+    fn first_motion(
         &self,
         scenario: &Scenario,
         observer: &mut dyn FnMut(&IterationRecord) -> Control,
         attempts: &mut Vec<AttemptRecord>,
     ) -> Option<Trajectory> {
-        sequence::of_legs(scenario, |leg| {
+        let mut plan = |simpler: &Scenario| {
             let mut planner = Planner::new().threads(self.threads).without_remedies();
-            let planned = planner.plan(leg, observer).ok()?;
+            let planned = planner.plan(simpler, observer).ok()?;
             attempts.extend(planned.solution.attempts.iter().cloned());
             Some(planned)
-        })
+        };
+        if !scenario.waypoints().is_empty() {
+            return sequence::of_legs(scenario, plan);
+        }
+        let is_disturbed = scenario.acting_environment().is_some() && !scenario.solver().is_paper();
+        if *scenario.maneuver() == Maneuver::Detumble && is_disturbed {
+            let undisturbed = scenario.varied(|file| file.environment = None).ok()?;
+            let planned = plan(&undisturbed)?;
+            let is_plan = planned.solution.status.is_acceptable();
+            return is_plan.then_some(planned.trajectory);
+        }
+        None
     }
 }
 

@@ -77,3 +77,20 @@ fn residual_momentum_stays() {
     let expected = plan(&shipped("slew_4dof")).solution.objective;
     assert!((usual / expected - 1.0).abs() < 1e-6, "{usual} {expected}");
 }
+
+/// A gravity gradient some millionths of the arm's torques changes nothing of what a detumble costs.
+#[test]
+fn a_slight_disturbance_leaves_a_detumble_as_good_as_without() {
+    let gradient = GravityGradient { altitude_km: 400.0, orbit_attitude: None, elements: None };
+    let environment = Environment { gravity_gradient: Some(gradient), ..Environment::default() };
+    let [disturbed, undisturbed] = [
+        in_environment("detumble_4dof", &environment, Formulation::Reduced),
+        shipped("detumble_4dof"),
+    ]
+    .map(|scenario| {
+        let planned = plan(&scenario);
+        assert_verified(&planned);
+        planned.solution.objective
+    });
+    assert!((disturbed / undisturbed - 1.0).abs() < 0.02, "{disturbed} {undisturbed}");
+}

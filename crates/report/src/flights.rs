@@ -99,6 +99,9 @@ pub fn flights_table(
     line(format_args!("  {:<48}{:>12}{:>12}{:>12}", "", "median", "95 %", "most"));
     let number = |value: Option<f64>| value.map_or("-".to_owned(), short);
     let mut row = |name: &str, values: [Option<f64>; 3]| {
+        if values[0].is_none() {
+            return;
+        }
         let [median, p95, most] = values.map(number);
         line(format_args!("  {name:<48}{median:>12}{p95:>12}{most:>12}"));
     };
