@@ -1,5 +1,5 @@
 # Every target works on a fresh clone: what the build needs is installed first where that is allowed.
-.PHONY: references fuzz faults leaks deny sbom vendored demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel book bench bench-all starts page fmt lint setup
+.PHONY: references fuzz faults leaks deny sbom vendored demo paper test test-debian13 test-planted test-slurm cases check-import random replay limits wheels wheel flights deb book bench bench-all starts page fmt lint setup
 
 DEMO := out/demo
 
@@ -49,6 +49,11 @@ replay: setup
 limits: setup
 	cargo build --release --locked
 	scripts/limits.sh --righting "$${CARGO_TARGET_DIR:-target}/release/righting"
+
+# The Debian package of this release of Debian, in out/deb; `make deb TRY=--try` also installs it in a clean root.
+deb: setup
+	cargo build --release --locked
+	scripts/deb.sh $(TRY)
 
 # 1,000 flights each of slews and a detumble with spacecraft that are not as planned, and MuJoCo as the spacecraft:
 # docs/flown.md. Gets a virtual environment of its own; a quarter of an hour.
