@@ -54,8 +54,11 @@ def main() -> int:
     options.add_argument("--out", type=Path, default=ROOT / "out/flights")
     options = options.parse_args()
     options.righting, options.out = options.righting.resolve(), options.out.resolve()
-    options.out.mkdir(parents=True, exist_ok=True)
-    os.chdir(options.out)
+    # What one version has flown it would fly again: a run that was stopped goes on.
+    version = run(options.righting, "--version").strip()
+    folder = options.out / "".join(c if c.isalnum() else "_" for c in version)
+    folder.mkdir(parents=True, exist_ok=True)
+    os.chdir(folder)
     rows, are_near = slews(options)
     agree, in_mujoco = mujoco(options)
     PAGE.write_text(page(options, rows, detumbles(options), in_mujoco))
@@ -101,7 +104,7 @@ def detumbles(options) -> list[str]:
 
 def mujoco(options) -> tuple[bool, list[str]]:
     """The 4-joint slew with both spacecraft; whether their distributions agree within sampling error."""
-    plan = options.out / "plan"
+    plan = Path("plan")
     run(options.righting, "solve", ROOT / "scenarios/slew_4dof.json", "--out", plan, "--figures", "none", "--no-report")
     count = str(options.mujoco_flights)
     rows, agree = [], True
@@ -111,10 +114,11 @@ def mujoco(options) -> tuple[bool, list[str]]:
         ours = np.array([float(line.split(",")[1]) for line in lines("model/flights.csv")])
 
         def flown(seed: int) -> float:
-            out = f"mujoco/{seed}"
+            out = f"mujoco/{kind.replace(' ', '_')}_{seed}"
             script = ROOT / "scripts/fly_in_mujoco.py"
             arguments = ["--righting", options.righting, "--out", out, "--seed", str(seed), *NOISE]
-            run(sys.executable, script, *arguments, plan, "--", *mode)
+            if not Path(out, "fly.json").exists():
+                run(sys.executable, script, *arguments, plan, "--", *mode)
             return float(lines(f"{out}/flights.csv")[0].split(",")[1])
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -146,11 +150,10 @@ def with_environment(name: str) -> Path:
 
 def fly(options, scenario: Path, name: str, arguments: list[str], count: int) -> dict:
     print(name, file=sys.stderr, flush=True)
-    out = name.replace(" ", "_").replace(",", "").replace("'", "")
-    printed = run(
-        options.righting, "fly", scenario, "--out", out, "--flights", str(count), "--json", *arguments, *NOISE
-    )
-    return json.loads(printed)
+    out = Path(f"{name} {count}".replace(" ", "_").replace(",", "").replace("'", ""))
+    if not (out / "fly.json").exists():
+        run(options.righting, "fly", scenario, "--out", out, "--flights", str(count), *arguments, *NOISE)
+    return json.loads((out / "fly.json").read_text())
 
 
 def run(*command) -> str:

@@ -156,6 +156,38 @@ impl ControlProblem {
         self
     }
 
+    /// Adds `count` states z after those that there are, which follow `rates(x, z, u)` and cost `cost(x_N, z_N)` at the
+    /// end beside what there is. Nothing else depends on them, and nothing bounds them.
+    pub fn with_more_states(
+        self,
+        count: usize,
+        rates: impl Fn(&[Expr], &[Expr], &[Expr]) -> Vec<Expr> + 'static,
+        cost: impl Fn(&[Expr], &[Expr]) -> Expr + 'static,
+    ) -> Self {
+        let n = self.states;
+        let Self { dynamics, running_cost, terminal_cost, path, stage, terminal, .. } = self;
+        let mut state_bounds = self.state_bounds;
+        state_bounds.lower.resize(n + count, f64::NEG_INFINITY);
+        state_bounds.upper.resize(n + count, f64::INFINITY);
+        Self {
+            states: n + count,
+            dynamics: Box::new(move |x, u| {
+                let (x, more) = x.split_at(n);
+                [dynamics(x, u), rates(x, more, u)].concat()
+            }),
+            running_cost: Box::new(move |x, u, step| running_cost(&x[..n], u, step)),
+            terminal_cost: Box::new(move |x| {
+                let (x, more) = x.split_at(n);
+                terminal_cost(x) + cost(x, more)
+            }),
+            path: Box::new(move |x| path(&x[..n])),
+            stage: Box::new(move |x, u, h| stage(&x[..n], u, h)),
+            terminal: Box::new(move |x| terminal(&x[..n])),
+            state_bounds,
+            ..self
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), OcpError> {
         if self.states == 0 {
             return Err(OcpError::NoStates);

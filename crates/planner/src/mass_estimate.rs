@@ -17,6 +17,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use righting_multibody::{MassFactors, ModelError, Quaternion, State, System};
+use righting_ocp::RungeKutta4;
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
 
@@ -194,27 +195,24 @@ impl MassEstimate {
         let seconds = time_s - self.last.time_s;
         let steps = ((seconds / STEP_S).ceil() as usize).clamp(1, MOST_STEPS);
         let step_s = seconds / steps as f64;
-        let rate = |attitude: &Quaternion<f64>, after_s: f64| {
-            let (angles, rates) = self.joints_after(after_s, seconds, measured);
-            let momentum = at_start + self.gained_at(self.last.time_s + after_s);
-            let momentum = attitude.to_body(&momentum);
-            attitude.rate(&model.reduced_angular_rate(&angles, &rates, &momentum))
-        };
-        let mut attitude = self.last.attitude;
-        for step in 0..steps {
-            let from_s = step as f64 * step_s;
-            // Classical Runge-Kutta.
-            let k1 = rate(&attitude, from_s);
-            let k2 = rate(&moved(&attitude, &k1, 0.5 * step_s), from_s + 0.5 * step_s);
-            let k3 = rate(&moved(&attitude, &k2, 0.5 * step_s), from_s + 0.5 * step_s);
-            let k4 = rate(&moved(&attitude, &k3, step_s), from_s + step_s);
-            let mean = [k1, k2, k3, k4].map(Quaternion::to_array);
-            let mean = std::array::from_fn(|i| {
-                (mean[0][i] + 2.0 * mean[1][i] + 2.0 * mean[2][i] + mean[3][i]) / 6.0
+        // The attitude, and the time since the last measurement.
+        let mut x = [&self.last.attitude.to_array()[..], &[0.0]].concat();
+        let mut point = x.clone();
+        let mut method = RungeKutta4::new(x.len());
+        for _ in 0..steps {
+            let next = method.step(step_s, &x, |stage| {
+                stage.write_point(&mut point);
+                let (attitude, after_s) = (attitude_of(&point), point[4]);
+                let (angles, rates) = self.joints_after(after_s, seconds, measured);
+                let momentum = at_start + self.gained_at(self.last.time_s + after_s);
+                let momentum = attitude.to_body(&momentum);
+                let rate = model.reduced_angular_rate(&angles, &rates, &momentum);
+                let turning = attitude.rate(&rate).to_array();
+                stage.set_rates(&[&turning[..], &[1.0]].concat());
             });
-            attitude = moved(&attitude, &Quaternion::from_array(mean), step_s).normalized();
+            x.copy_from_slice(next);
         }
-        Ok(attitude)
+        Ok(attitude_of(&x).normalized())
     }
 
     /// The momentum at the start in inertial axes, N m s.
@@ -280,9 +278,8 @@ fn hermite([from, to]: [f64; 2], [slope_from, slope_to]: [f64; 2], at: f64) -> (
     (value, slope_from + at * (2.0 * second + at * 3.0 * third))
 }
 
-fn moved(attitude: &Quaternion<f64>, rate: &Quaternion<f64>, seconds: f64) -> Quaternion<f64> {
-    let (attitude, rate) = (attitude.to_array(), rate.to_array());
-    Quaternion::from_array(std::array::from_fn(|i| attitude[i] + seconds * rate[i]))
+fn attitude_of(x: &[f64]) -> Quaternion<f64> {
+    Quaternion::new(x[0], x[1], x[2], x[3])
 }
 
 /// The small rotation vector in body axes that leads from one attitude to another; either sign of both.

@@ -6,8 +6,8 @@ use righting_analysis::detumble::rate_bound_rad_s;
 use righting_ocp::{Attempt, AttemptEnd, Iteration, Optimizer, UsedLinearSolver};
 use righting_results::solution::SCHEMA;
 use righting_results::{
-    AttemptRecord, IterationRecord, OptimalityRecord, Solution, Status, Terminal, Timing,
-    Trajectory, UsedOptimizer, Versions, WaypointRecord, objective,
+    AttemptRecord, IterationRecord, OptimalityRecord, RobustnessRecord, Solution, Status, Terminal,
+    Timing, Trajectory, UsedOptimizer, Versions, WaypointRecord, objective,
 };
 use righting_scenario::error::ShapeError;
 use righting_scenario::{Maneuver, Scenario};
@@ -96,6 +96,11 @@ impl Planned {
             bound_deg_s: is_detumble.then(|| rate_bound_rad_s(scenario).to_degrees()),
             stopped_deg_s: is_detumble.then(|| scenario.stopped_rate_rad_s().to_degrees()),
             reduction_percent: is_detumble.then(|| terminal.reduction_percent(scenario)),
+            robustness: found.spread.map(|spread| RobustnessRecord {
+                deviation_deg: spread.deviation_rad.to_degrees(),
+                without_deg: spread.without_rad.to_degrees(),
+                cost_ratio: spread.cost / spread.cost_without,
+            }),
             notes,
             attempts: found.attempts.iter().map(attempt_record).collect(),
             history: {

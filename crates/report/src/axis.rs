@@ -1,5 +1,7 @@
 //! The value axis of a panel: its range, ticks and their labels.
 
+use crate::number::drawn;
+
 /// A closed, non-empty range of finite values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
@@ -34,6 +36,22 @@ impl Range {
         let half = 0.5 * self.span().max(least);
         let middle = self.low + 0.5 * self.span();
         Self { low: middle - 1.12 * half, high: middle + 1.12 * half }
+    }
+
+    /// Ticks where the values are decimal logarithms: powers of ten, and 2 and 5 times those where they are few.
+    pub fn decades(self) -> Vec<(f64, String)> {
+        let (first, last) = (self.low.floor() as i32, self.high.ceil() as i32);
+        let step = ((last - first) / 8 + 1) as usize;
+        let multiples: &[f64] = if self.span() < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        (first..=last)
+            .step_by(step)
+            .flat_map(|decade| multiples.iter().map(move |multiple| (decade, *multiple)))
+            .map(|(decade, multiple)| {
+                let value = multiple * 10f64.powi(decade);
+                (value.log10(), drawn(value))
+            })
+            .filter(|(value, _)| self.contains(*value))
+            .collect()
     }
 
     /// About `count` ticks at multiples of 1, 2 or 5 · 10ⁿ, with their labels.
@@ -71,6 +89,16 @@ mod tests {
 
     fn labels(low: f64, high: f64) -> Vec<String> {
         Range { low, high }.ticks(5.0).into_iter().map(|(_, label)| label).collect()
+    }
+
+    #[test]
+    fn decades_are_few_and_inside() {
+        let labels = |low, high| -> Vec<String> {
+            Range { low, high }.decades().into_iter().map(|(_, label)| label).collect()
+        };
+        assert_eq!(labels(-1.1, 0.4), ["0.1", "0.2", "0.5", "1", "2"]);
+        assert_eq!(labels(-5.2, -0.9), ["1.0e\u{2212}5", "1.0e\u{2212}4", "0.001", "0.01", "0.1"]);
+        assert!(labels(-300.0, 300.0).len() < 12);
     }
 
     #[test]

@@ -27,6 +27,15 @@ const NAMES_WIDTH: f64 = 150.0;
 
 impl Chart {
     pub fn new(labels: &Labels<'_>, x: Range, y: Range) -> Self {
+        Self::with_ticks(labels, (x, &x.ticks(7.0)), y)
+    }
+
+    /// A chart over decimal logarithms.
+    pub fn over_decades(labels: &Labels<'_>, x: Range, y: Range) -> Self {
+        Self::with_ticks(labels, (x, &x.decades()), y)
+    }
+
+    fn with_ticks(labels: &Labels<'_>, (x, ticks): (Range, &[(f64, String)]), y: Range) -> Self {
         let left = style::MARGIN + style::AXIS_LABEL_WIDTH + style::TICK_LABEL_WIDTH;
         let top = style::MARGIN + style::TITLE_SIZE + style::LABEL_SIZE + 22.0;
         let width = left + SIZE[0] + NAMES_WIDTH + style::MARGIN;
@@ -38,19 +47,19 @@ impl Chart {
         let base = [style::MARGIN, base + size + 7.0];
         svg.text(base, Anchor::Start, size, style::FAINT_INK, labels.subtitle);
         let mut chart = Self { svg, corner: [left, top], size: SIZE, x, y };
-        chart.draw_axes(labels);
+        chart.draw_axes(labels, ticks);
         chart
     }
 
-    fn draw_axes(&mut self, labels: &Labels<'_>) {
+    fn draw_axes(&mut self, labels: &Labels<'_>, ticks: &[(f64, String)]) {
         let ([left, top], [width, height]) = (self.corner, self.size);
         let grid = Stroke { color: style::GRID, width: style::HAIR_WIDTH, dash: "" };
         let size = style::SMALL_SIZE;
-        for (value, label) in self.x.ticks(7.0) {
-            let [x, _] = self.place([value, self.y.low]);
+        for (value, label) in ticks {
+            let [x, _] = self.place([*value, self.y.low]);
             self.svg.line([x, top], [x, top + height], grid);
             let at = [x, top + height + size + 4.0];
-            self.svg.text(at, Anchor::Middle, size, style::INK, &label);
+            self.svg.text(at, Anchor::Middle, size, style::INK, label);
         }
         for (value, label) in self.y.ticks(6.0) {
             let [_, y] = self.place([self.x.low, value]);

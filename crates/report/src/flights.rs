@@ -35,6 +35,24 @@ fn phrase(control: Control) -> &'static str {
     }
 }
 
+/// What stands along the figure.
+#[derive(Clone, Copy)]
+enum Axis {
+    /// The value.
+    Linear,
+    /// Its decimal logarithm, from this one on.
+    Decades(f64),
+}
+
+impl Axis {
+    fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Decades(least) => value.log10().max(least),
+        }
+    }
+}
+
 /// The figure of how flights end, as an SVG document: the share of them (percent) that end within an angle from
 /// the target, or of a detumble with a rate, with what is done about it and open loop. None if none came to its end.
 pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
@@ -48,7 +66,6 @@ pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
     let flown = sorted(flights.iter().map(|flight| value(&flight.flown)));
     let open_loop =
         sorted(flights.iter().filter_map(|flight| flight.open_loop.as_ref().map(value)));
-    let most = flown.last()?.max(*open_loop.last()?);
     let (x, unit) = match is_slew {
         true => ("Attitude error at the end [deg]", "\u{b0}"),
         false => ("Angular rate at the end [deg/s]", " \u{b0}/s"),
@@ -63,13 +80,27 @@ pub fn flights_svg(figure: FlightsFigure<'_>) -> Option<String> {
         of(&open_loop),
     );
     let labels = Labels { title: &scenario.name, subtitle: &subtitle, x, y: "Flights within [%]" };
-    let range = Range { low: 0.0, high: most }.padded(1e-9);
-    let mut chart =
-        Chart::new(&labels, Range { low: 0.0, ..range }, Range { low: 0.0, high: 104.0 });
+    // Errors with and without what is done about them are decades apart; rates are not.
+    let percent = Range { low: 0.0, high: 104.0 };
+    let (axis, mut chart) = match is_slew {
+        true => {
+            let decades = flown.iter().chain(&open_loop).map(|error| error.log10());
+            let range = Range::of(decades)?.padded(0.5);
+            (Axis::Decades(range.low), Chart::over_decades(&labels, range, percent))
+        }
+        false => {
+            let high = flown.last()?.max(*open_loop.last()?);
+            let range = Range { low: 0.0, high }.padded(1e-9);
+            (Axis::Linear, Chart::new(&labels, Range { low: 0.0, ..range }, percent))
+        }
+    };
+    let placed = |values: &[f64]| -> Vec<[f64; 2]> {
+        stairs(values).into_iter().map(|[value, share]| [axis.place(value), share]).collect()
+    };
     let dash = style::LIMIT_DASH;
     let width = style::CURVE_WIDTH;
-    chart.curve(&stairs(&open_loop), Stroke { color: style::FAINT_INK, width, dash });
-    chart.curve(&stairs(&flown), Stroke { color: style::Z, width, dash: "" });
+    chart.curve(&placed(&open_loop), Stroke { color: style::FAINT_INK, width, dash });
+    chart.curve(&placed(&flown), Stroke { color: style::Z, width, dash: "" });
     Some(chart.svg.finish())
 }
 

@@ -108,7 +108,7 @@ impl Chart {
         for (value, _) in self.across.ticks(8.0) {
             svg.line([x(value), top], [x(value), top + height], grid);
         }
-        let ticks = if self.is_logarithmic { decades(up) } else { up.ticks(5.0) };
+        let ticks = if self.is_logarithmic { up.decades() } else { up.ticks(5.0) };
         for (value, label) in ticks {
             let y = y(value);
             svg.line([left, y], [left + width, y], grid);
@@ -182,35 +182,4 @@ fn marks(succeeded: bool) -> (&'static str, Stroke) {
     let color = if succeeded { style::Z } else { style::X };
     let fill = if succeeded { style::Z } else { style::PAPER };
     (fill, Stroke { color, width: style::CURVE_WIDTH, dash: "" })
-}
-
-/// Ticks of an axis of decimal logarithms: powers of ten, and 2 and 5 times those where they are few.
-fn decades(range: Range) -> Vec<(f64, String)> {
-    let (first, last) = (range.low.floor() as i32, range.high.ceil() as i32);
-    let step = ((last - first) / 8 + 1) as usize;
-    let multiples: &[f64] = if range.span() < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-    (first..=last)
-        .step_by(step)
-        .flat_map(|decade| multiples.iter().map(move |multiple| (decade, *multiple)))
-        .map(|(decade, multiple)| {
-            let value = multiple * 10f64.powi(decade);
-            (value.log10(), drawn(value))
-        })
-        .filter(|(value, _)| range.contains(*value))
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn decades_are_few_and_inside() {
-        let labels = |low, high| -> Vec<String> {
-            decades(Range { low, high }).into_iter().map(|(_, label)| label).collect()
-        };
-        assert_eq!(labels(-1.1, 0.4), ["0.1", "0.2", "0.5", "1", "2"]);
-        assert_eq!(labels(-5.2, -0.9), ["1.0e\u{2212}5", "1.0e\u{2212}4", "0.001", "0.01", "0.1"]);
-        assert!(labels(-300.0, 300.0).len() < 12);
-    }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_results::{Check, Sense, Solution, Status};
+use righting_results::{Check, RobustnessRecord, Sense, Solution, Status};
 use righting_scenario::file::{Formulation, ManeuverType, SystemReference};
 
 use crate::asked;
@@ -99,15 +99,27 @@ pub fn status_phrase(status: Status) -> &'static str {
     }
 }
 
+/// What masses do to the end.
+fn spread(robustness: &RobustnessRecord) -> String {
+    let RobustnessRecord { deviation_deg, without_deg, cost_ratio } = robustness;
+    format!(
+        "\n  masses   turn the end by {}° (standard deviation) instead of {}°, at {} times the cost",
+        short(*deviation_deg),
+        short(*without_deg),
+        short(*cost_ratio),
+    )
+}
+
 fn reached(solution: &Solution) -> String {
     let terminal = &solution.terminal;
     let rate = short(terminal.angular_rate_deg_s);
     let joints = joints_at_end(terminal);
     match solution.scenario.maneuver.kind {
         ManeuverType::Slew => format!(
-            "attitude error {} ({}°), base {rate} °/s, joints {joints}",
+            "attitude error {} ({}°), base {rate} °/s, joints {joints}{}",
             short(terminal.attitude_error),
             short(terminal.attitude_error_deg),
+            solution.robustness.as_ref().map(spread).unwrap_or_default(),
         ),
         ManeuverType::Detumble => {
             let joint_rates = solution.scenario.initial.joint_rates_deg_s.iter().flatten();

@@ -22,8 +22,8 @@ pub mod verification;
 pub use finite_or_null::FiniteOrNull;
 pub use outcome::objective;
 pub use solution::{
-    AttemptRecord, IterationRecord, OptimalityRecord, Solution, Status, Terminal, Timing,
-    UsedOptimizer, Versions, WaypointRecord,
+    AttemptRecord, IterationRecord, OptimalityRecord, RobustnessRecord, Solution, Status, Terminal,
+    Timing, UsedOptimizer, Versions, WaypointRecord,
 };
 pub use trajectory::{ControlInterval, Node, Trajectory};
 pub use verification::{Check, LimitRecord, Sense, Verification};

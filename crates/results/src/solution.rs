@@ -70,6 +70,9 @@ pub struct Solution {
     /// Detumble: how much of that rate the plan takes out, %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduction_percent: Option<f64>,
+    /// What masses do to the end, where the scenario asked for a plan that depends on them less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robustness: Option<RobustnessRecord>,
     /// What a reader should know: a saddle that was left, or, without a plan, which way is open.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -80,6 +83,18 @@ pub struct Solution {
     /// One record an iteration, the starting point first; of the last solve if there were several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<IterationRecord>,
+}
+
+/// What masses that are not known exactly do to the attitude at the end, to first order, and what it costs that they do
+/// less.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RobustnessRecord {
+    /// Standard deviation of the attitude at the end, deg.
+    pub deviation_deg: f64,
+    /// That of the plan that does not try to depend less on the masses, deg.
+    pub without_deg: f64,
+    /// What the plan costs relative to that one.
+    pub cost_ratio: f64,
 }
 
 /// What computed a solution.

@@ -82,6 +82,9 @@ pub struct Scenario {
     /// What acts from outside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
+    /// Masses that the plan shall not depend on more than it must.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robustness: Option<Robustness>,
     /// Where instruments may look, all the time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pointing: Vec<Pointing>,
@@ -124,6 +127,20 @@ pub struct Initial {
     /// Attitude quaternion w, x, y, z (Hamilton, body → inertial); identity by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attitude: Option<[f64; 4]>,
+}
+
+/// Masses that are not known exactly: the plan of a slew trades effort for an end that they change less.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with `mass_percent`")]
+pub struct Robustness {
+    /// Every mass, and the inertia of the base, is off by up to so much either way, each by itself, %.
+    #[schemars(range(min = 0.0, max = 50.0))]
+    pub mass_percent: f64,
+    /// What the variance of the attitude at the end counts, relative to the effort: one weighs the variance of the plan
+    /// without this like that plan's effort. One by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub weight: Option<f64>,
 }
 
 /// How the end of a maneuver is met.

@@ -16,6 +16,7 @@ use crate::initial::Initial;
 use crate::joint_limits::JointLimits;
 use crate::json::{Bounds, Document, FileKind, Location, Number};
 use crate::pointing::{Pointing, pointing};
+use crate::robustness::Robustness;
 use crate::rounding::{COMPUTED, PRINTED};
 use crate::start_clearance::Start;
 use crate::start_limits::widen_to_start;
@@ -50,6 +51,7 @@ pub struct Scenario {
     pub(crate) end_wheel_momenta_n_m_s: Vec<Option<f64>>,
     pub(crate) wheels: Vec<Wheel>,
     pub(crate) environment: Option<Environment>,
+    pub(crate) robustness: Option<Robustness>,
     pub(crate) pointing: Vec<Pointing>,
     pub(crate) collision: CollisionModel,
     pub(crate) solver: SolverSettings,
@@ -128,6 +130,12 @@ impl Scenario {
         let (horizon, free_duration) =
             Horizon::from_file(&scenario.horizon, &place.key("horizon"))?;
         let solver = SolverSettings::from_file(&scenario.solver, &place.key("solver"))?;
+        let robustness_place = place.key("robustness");
+        let robustness = scenario
+            .robustness
+            .as_mut()
+            .map(|given| Robustness::from_file(given, (&maneuver, solver), &robustness_place));
+        let robustness = robustness.transpose()?;
         let waypoints = match maneuver.slew().filter(|_| !scenario.maneuver.waypoints.is_empty()) {
             Some(slew) => {
                 let is_free = free_duration.is_some();
@@ -212,6 +220,7 @@ impl Scenario {
             end_wheel_momenta_n_m_s,
             wheels,
             environment,
+            robustness,
             pointing,
             collision,
             solver,
@@ -355,6 +364,11 @@ impl Scenario {
                 ..external
             },
         })
+    }
+
+    /// Masses that the plan shall not depend on more than it must, if there are any.
+    pub fn robustness(&self) -> Option<Robustness> {
+        self.robustness
     }
 
     /// The cones that instruments keep out of, or stay in.

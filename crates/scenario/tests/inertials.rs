@@ -49,6 +49,7 @@ fn checked(mut system: file::System) -> Result<Scenario, Error> {
         end: None,
         wheels: Vec::new(),
         environment: None,
+        robustness: None,
         pointing: Vec::new(),
         collision: file::Collision { clearance_m: Some(0.0) },
         solver: file::Solver::default(),

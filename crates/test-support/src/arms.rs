@@ -151,6 +151,7 @@ pub(crate) fn at_rest(system: file::System) -> Scenario {
         end: None,
         wheels: Vec::new(),
         environment: None,
+        robustness: None,
         pointing: Vec::new(),
         collision: file::Collision { clearance_m: Some(0.0) },
         solver: file::Solver::default(),

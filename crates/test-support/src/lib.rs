@@ -218,6 +218,7 @@ pub fn solution_of(scenario: &Scenario, trajectory: &Trajectory) -> Solution {
         bound_deg_s: None,
         stopped_deg_s: None,
         reduction_percent: None,
+        robustness: None,
         notes: Vec::new(),
         attempts: Vec::new(),
         history: Vec::new(),

@@ -16,6 +16,7 @@ mod cones;
 mod coordinates;
 mod end_conditions;
 mod loads;
+mod spread;
 mod stage_limits;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ use end_conditions::EndConditions;
 pub(crate) use loads::Loads;
 use righting_scenario::file::Formulation;
 use righting_scenario::scenario::{Maneuver, Scenario, Weights};
+pub(crate) use spread::Spread;
 pub(crate) use stage_limits::StageLimits;
 use waypoints::Waypoints;
 pub(crate) use wheels::Wheels;

@@ -68,7 +68,7 @@ impl Search<'_> {
         Ok((solution, is_minimum))
     }
 
-    fn passed_limits(&self, solution: &OcpSolution) -> PassedLimits {
+    pub(super) fn passed_limits(&self, solution: &OcpSolution) -> PassedLimits {
         self.passed_by(&self.model, self.grid, solution)
     }
 

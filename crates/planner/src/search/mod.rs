@@ -10,6 +10,8 @@
 //!    along that direction ([`Search::leave_saddle`]).
 //! 5. Where a limit is passed between the nodes, it is stated there too, and the problem solved again
 //!    ([`Search::hold_between_nodes`]).
+//! 6. Where masses are not known exactly, the asked grid is solved once more, with what they do to the end among
+//!    the costs ([`Search::made_robust`]).
 
 mod accuracy;
 mod batch;
@@ -21,6 +23,7 @@ mod incumbents;
 mod model;
 mod negative_curvature;
 mod portfolio;
+mod robust;
 pub(crate) mod settings;
 mod stall;
 
@@ -44,9 +47,14 @@ use grids::Ranking;
 pub(crate) use accuracy::substeps_of_spin;
 pub(crate) use incumbents::Motion;
 pub(crate) use model::Model;
+pub(crate) use robust::SpreadOfEnd;
 
 /// How many coarse solutions are carried to the asked grid, at most, until one gets there.
 const MOST_REFINED: usize = 3;
+
+/// What a plan says that was to depend less on masses.
+const NOT_ROBUST: &str =
+    "robustness: no plan was found that depends less on the masses; this one does not try to";
 
 /// The solves that lead to a plan.
 pub(crate) struct Search<'a> {
@@ -100,6 +108,8 @@ pub(crate) struct Found {
     pub(crate) coordinates: Coordinates,
     /// Whether second-order conditions hold there, or were not asked for.
     pub(crate) is_minimum: bool,
+    /// What masses do to its end, where the scenario asked for a plan that depends on them less.
+    pub(crate) spread: Option<SpreadOfEnd>,
     /// Whether the caller stopped the search.
     pub(crate) is_interrupted: bool,
     /// Motions on the asked grid that may be plans, where the search did not end with one.
@@ -191,11 +201,13 @@ impl<'a> Search<'a> {
                 self.finished(solution)?
             }
         };
+        let (solution, is_minimum, spread) = self.less_spread(solution, is_minimum);
         let has_plan = solution.status.is_success() && !self.is_interrupted();
         Ok(Found {
             incumbents: if has_plan { Vec::new() } else { self.incumbents(&solution) },
             solution,
             is_minimum,
+            spread,
             is_interrupted: self.is_interrupted(),
             coordinates: self.model.coordinates,
             notes: self.notes,
@@ -224,6 +236,30 @@ impl<'a> Search<'a> {
         let solution = self.integrated_well(solution, self.grid)?;
         let (solution, is_minimum) = self.leave_saddle(solution)?;
         self.hold_between_nodes(self.grid, solution, is_minimum)
+    }
+
+    /// A solution that depends less on masses, where the scenario asks for one and there is one; otherwise the
+    /// solution itself, and a note.
+    fn less_spread(
+        &mut self,
+        solution: OcpSolution,
+        is_minimum: bool,
+    ) -> (OcpSolution, bool, Option<SpreadOfEnd>) {
+        let Some(robustness) = self.scenario.robustness() else {
+            return (solution, is_minimum, None);
+        };
+        if !solution.status.is_success() || self.is_interrupted() {
+            return (solution, is_minimum, None);
+        }
+        match self.made_robust(robustness, &solution) {
+            Ok(Some((robust, spread))) if self.passed_limits(&robust).is_empty() => {
+                (robust, true, Some(spread))
+            }
+            Ok(_) | Err(_) => {
+                self.notes.push(NOT_ROBUST.to_owned());
+                (solution, is_minimum, None)
+            }
+        }
     }
 
     fn is_interrupted(&self) -> bool {
