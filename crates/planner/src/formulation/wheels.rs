@@ -62,7 +62,7 @@ impl Wheels {
     }
 
     /// The shares at the start.
-    pub(super) fn at_start(&self) -> Vec<f64> {
+    pub(crate) fn at_start(&self) -> Vec<f64> {
         self.working.iter().map(|wheel| wheel.at_start).collect()
     }
 
