@@ -157,8 +157,13 @@ def variants(scenario: dict, loads: Loads, free: Plan) -> list[tuple[str, dict]]
         keep_out(changed, {"capsule": {**ends, "radius_m": 0.5 * share * loads.room_m}})
 
     def keep_out(changed: dict, shape: dict) -> None:
-        base = changed["system"]["base"]
-        base.setdefault("keep_out_radius_m", base["cube_side_m"] * math.sqrt(3.0) / 2.0)
+        base, links = changed["system"]["base"], changed["system"]["links"]
+        long = [link for link in links if math.hypot(link["a_m"], link["d_m"]) > 0]
+        if all(link.get("body_exempt") for link in long):
+            # The 2-joint arm is part of the mount: its link keeps away from this alone.
+            links[-1]["body_exempt"] = False
+        elif "keep_out" not in base:
+            base["keep_out_radius_m"] = base["cube_side_m"] * math.sqrt(3.0) / 2.0
         base.setdefault("keep_out", []).append(shape)
 
     def stow(changed: dict, _: float) -> None:
