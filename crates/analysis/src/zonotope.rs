@@ -202,6 +202,8 @@ mod tests {
             torque_max_n_m: 0.1 + u[4],
             steady_power_w: 0.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         let points = Halton::starting_after(5, 10 + 100 * seed);
@@ -245,6 +247,8 @@ mod tests {
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         let wheels = vec![
@@ -322,6 +326,8 @@ mod tests {
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         for wheels in [vec![wheel(1.0, 0.0)], vec![wheel(1.0, 0.0), wheel(0.0, 1.0)]] {

@@ -75,7 +75,8 @@ fn arm() -> Value {
         "wheels": [
             {
                 "axis": [0, 0, 1], "momentum_max_n_m_s": 1.0, "torque_max_n_m": 0.1, "steady_power_w": 5.0,
-                "initial_momentum_n_m_s": 0.1, "failed": false
+                "initial_momentum_n_m_s": 0.1, "inertia_kg_m2": 0.01, "viscous_friction_n_m_s": 1e-5,
+                "failed": false
             },
             { "axis": [1, 0, 0], "momentum_max_n_m_s": 1.0, "torque_max_n_m": 0.1 }
         ],
