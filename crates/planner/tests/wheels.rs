@@ -116,9 +116,6 @@ fn friction_is_part_of_what_the_motor_gives() {
     let expected_s = speeding_up_s + slowing_down_s;
     let found_s = planned.solution.duration_s.unwrap();
     assert!((found_s / expected_s - 1.0).abs() < 5e-3, "{found_s} {expected_s}");
-    let momenta = planned.trajectory.nodes().iter().map(|node| node.wheel_momenta_n_m_s[0].abs());
-    let found = momenta.fold(0.0, f64::max);
-    assert!((found / most - 1.0).abs() < 0.01, "{found} {most}");
 
     // The motor's work is what friction takes, since the wheel ends as it starts.
     let slower = varied(&scenario(angle.to_degrees()), |file| {
