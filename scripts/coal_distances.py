@@ -49,24 +49,31 @@ class Solid:
 def main() -> int:
     wrong = 0
     for folder in map(Path, sys.argv[1:]):
-        solution = json.loads((folder / "solution.json").read_text(encoding="utf-8"))
-        found = measured(solution["scenario"], folder / "trajectory.csv")
-        checks = {check["name"]: check for check in solution["verification"]["checks"]}
-        for what, (at_nodes, between) in found.items():
-            named = [checks.get(f"clearance {what} {where} nodes") for where in ("at", "between")]
-            if named[0] is None:
-                problem = math.isfinite(at_nodes)
-                print(f"{folder.name}, {what}: no check, coal {at_nodes:.9f}")
-            else:
-                rooms = [check["value"] - check["limit"] for check in named]
-                problem = abs(rooms[0] - at_nodes) > AT_NODES or between < rooms[1] - AT_NODES
-                print(
-                    f"{folder.name}, {what}: beyond the least distance at the nodes {rooms[0]:.9f}, coal "
-                    f"{at_nodes:.9f} m; between them {rooms[1]:.9f}, coal {between:.9f} m"
-                )
-            wrong += problem
+        for found, is_same in compared(folder):
+            print(f"{folder.name}, {found}")
+            wrong += not is_same
     print("coal finds the same" if not wrong else f"{wrong} are not what coal finds")
     return 1 if wrong else 0
+
+
+def compared(folder: Path) -> list[tuple[str, bool]]:
+    """What the checks of a plan and coal say of its clearances, and whether that is the same."""
+    solution = json.loads((folder / "solution.json").read_text(encoding="utf-8"))
+    checks = {check["name"]: check for check in solution["verification"]["checks"]}
+    found = []
+    for what, (at_nodes, between) in measured(solution["scenario"], folder / "trajectory.csv").items():
+        named = [checks.get(f"clearance {what} {where} nodes") for where in ("at", "between")]
+        if named[0] is None:
+            found.append((f"{what}: no check, coal {at_nodes:.9f}", not math.isfinite(at_nodes)))
+            continue
+        rooms = [check["value"] - check["limit"] for check in named]
+        is_same = abs(rooms[0] - at_nodes) <= AT_NODES and between >= rooms[1] - AT_NODES
+        text = (
+            f"{what}: beyond the least distance at the nodes {rooms[0]:.9f}, coal {at_nodes:.9f} m; "
+            f"between them {rooms[1]:.9f}, coal {between:.9f} m"
+        )
+        found.append((text, is_same))
+    return found
 
 
 def measured(scenario: dict, table: Path) -> dict[str, tuple[float, float]]:

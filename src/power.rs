@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use righting_analysis::motors::{Braking, Losses};
 use righting_analysis::power::{Accounting, Consumption, PAPER_EFFICIENCY};
-use righting_analysis::{Motors, PowerProfile};
+use righting_analysis::{Motors, PowerProfile, WheelMotors};
 use righting_report::{PowerComparison, power_svg, power_table};
 use righting_scenario::wheels::Wheel;
 use righting_scenario::{Error, WheelArray};
@@ -84,6 +84,31 @@ struct PrintedWheels<'a> {
     array: &'a [Wheel],
     steady_power_w: f64,
     energy_j: f64,
+    /// Only for the wheels of the scenario, where the inertia of every one that works is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motors: Option<PrintedWheelMotors>,
+}
+
+#[derive(Serialize)]
+struct PrintedWheelMotors {
+    without_regeneration: Consumption,
+    with_regeneration: Consumption,
+    friction_j: f64,
+    kinetic_energy_change_j: f64,
+    /// One a wheel that works.
+    peak_speeds_rad_s: Vec<f64>,
+}
+
+impl PrintedWheelMotors {
+    fn new(motors: &WheelMotors<'_>) -> Self {
+        Self {
+            without_regeneration: motors.consumption(Braking::Burnt),
+            with_regeneration: motors.consumption(Braking::FedBack),
+            friction_j: motors.friction_j(),
+            kinetic_energy_change_j: motors.kinetic_energy_change_j(),
+            peak_speeds_rad_s: motors.peak_speeds_rad_s().to_vec(),
+        }
+    }
 }
 
 /// Reads, checks, computes, writes and prints.
@@ -92,9 +117,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let given = arguments.wheels.read()?;
     let Verified { solution, scenario, trajectory } = plan_folder::read(&arguments.folder)?;
     let of_scenario = WheelArray::of(scenario.wheels());
+    let is_of_scenario = given.is_none();
     let wheels = given.or(of_scenario).unwrap_or_else(WheelArray::pyramid);
     let profile = PowerProfile::new(&scenario, &trajectory).map_err(Error::from)?;
     let motors = Motors::new(&scenario.system().drives, &profile);
+    let wheel_motors = WheelMotors::new(scenario.wheels(), &trajectory, &profile);
+    let wheel_motors = wheel_motors.filter(|_| is_of_scenario);
     let folder = OutputFolder::open(arguments.out.as_ref().unwrap_or(&arguments.folder))?;
     let efficiency = arguments.efficiency;
     let consumption =
@@ -115,10 +143,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             array: wheels.wheels(),
             steady_power_w: wheels.steady_power_w(),
             energy_j: wheels.steady_power_w() * profile.duration_s(),
+            motors: wheel_motors.as_ref().map(PrintedWheelMotors::new),
         },
     };
-    let comparison =
-        PowerComparison { profile: &profile, motors: motors.as_ref(), efficiency, wheels: &wheels };
+    let comparison = PowerComparison {
+        profile: &profile,
+        motors: motors.as_ref(),
+        efficiency,
+        wheels: &wheels,
+        wheel_motors: wheel_motors.as_ref(),
+    };
     let json = output::to_json(&printed)?;
     folder.write(POWER_FILE, json.as_bytes())?;
     writer.write(folder.path(), POWER_FIGURE_FILE, &power_svg(&solution, comparison))?;

@@ -37,6 +37,9 @@ const PLAN_FOLDER: &str = "plan";
 /// lies between. Steps and weights stay those of the scenario. A value counts as failed once it
 /// has failed from the nearest success and from the scenario's own guess.
 ///
+/// The shortest duration of a slew that ends in its target whatever that takes is planned first, by one plan that
+/// chooses it, and then tried from both sides.
+///
 /// A shorter duration or larger angle that was not tried may still succeed.
 #[derive(Args)]
 #[command(mut_arg("png", |png| png.requires("out")))]
@@ -56,6 +59,9 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u64).range(0..=MAX_STARTS))]
     starts: u64,
+    /// Do not plan the shortest duration first: search for it step by step.
+    #[arg(long)]
+    step_by_step: bool,
     /// Another weights.control than the scenario's. Where effort is what costs too much, a small one
     /// finds what the arm's limits allow.
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
@@ -107,7 +113,7 @@ struct Printed<'a> {
     /// How far apart the last failure and the last success may stay: of durations in percent, of
     /// angles in degrees.
     resolution: f64,
-    /// The weights.control of every solve.
+    /// The weights.control of every try.
     control_weight: f64,
     /// Detumble: by how much the rate left may exceed its bound, %.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -171,6 +177,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         resolution: arguments.resolution.unwrap_or(defaults.resolution),
         within_percent: arguments.within.unwrap_or(defaults.within_percent),
         starts: arguments.starts,
+        plans_fastest: !arguments.step_by_step,
         ..defaults
     };
     let writer = arguments.formats.writer()?;
@@ -212,6 +219,7 @@ fn show(progress: &Progress, quantity: Quantity, step: reach::Progress<'_>) {
             let start = match start {
                 StartedFrom::Cold => "cold",
                 StartedFrom::Neighbor => "from the nearest success",
+                StartedFrom::Fastest => "with a duration that the plan chooses",
                 StartedFrom::LowDiscrepancy => "from more initial guesses",
             };
             progress.name(format!("{}, {start}: ", shown(value)));

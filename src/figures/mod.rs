@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use righting_analysis::power::PAPER_EFFICIENCY;
-use righting_analysis::{Histories, Motors, PowerProfile};
+use righting_analysis::{Histories, Motors, PowerProfile, WheelMotors};
 use righting_planner::PlanError;
 use righting_planner::sparsity::kkt_sparsity;
 use righting_report::{
@@ -87,11 +87,13 @@ pub fn draw(
     let profile = PowerProfile::new(scenario, trajectory).map_err(Error::from)?;
     let motors = Motors::new(&scenario.system().drives, &profile);
     let wheels = WheelArray::pyramid();
+    let wheel_motors = WheelMotors::new(scenario.wheels(), trajectory, &profile);
     let power = PowerComparison {
         profile: &profile,
         motors: motors.as_ref(),
         efficiency: PAPER_EFFICIENCY,
         wheels: &wheels,
+        wheel_motors: wheel_motors.as_ref(),
     };
     let mut figures = vec![
         (ATTITUDE_FILE, attitude_svg(solution, trajectory)),

@@ -95,6 +95,7 @@ pub fn run(scenarios: &Path, out: &Path, writer: &FigureWriter) -> Result<(), Fa
         motors: None,
         efficiency: PAPER_EFFICIENCY,
         wheels: &wheels,
+        wheel_motors: None,
     };
     let trades = trades(&slew.scenario, &interrupt)?;
 

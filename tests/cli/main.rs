@@ -1,6 +1,7 @@
 //! The `righting` program as its users run it: exit codes, messages, files.
 
 mod bad_input;
+mod bad_limits;
 #[cfg(unix)]
 mod book;
 #[cfg(unix)]

@@ -12,7 +12,7 @@ fn reach(folder: &std::path::Path, more: &[&str]) -> Run {
 #[test]
 fn the_shortest_duration_is_told_with_all_that_was_tried() {
     let folder = folder_with(&small_slew());
-    let run = reach(folder.path(), &["--resolution", "5", "--out", "out"]);
+    let run = reach(folder.path(), &["--resolution", "5", "--step-by-step", "--out", "out"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stderr.starts_with("20 s succeeds\n15 s succeeds\n"), "{}", run.stderr);
     assert!(run.stderr.contains(" s fails: "), "{}", run.stderr);
@@ -42,8 +42,17 @@ fn the_shortest_duration_is_told_with_all_that_was_tried() {
     let solution: Value = serde_json::from_str(&solution.expect("written")).expect("JSON");
     assert_eq!(solution["scenario"]["horizon"]["duration_s"], pass);
 
-    let again = reach(folder.path(), &["--resolution", "5", "--json"]);
+    let again = reach(folder.path(), &["--resolution", "5", "--step-by-step", "--json"]);
     assert_eq!(again.json(), found);
+
+    // One plan that chooses its duration says where to look, and the answer is the same.
+    let fastest = reach(folder.path(), &["--resolution", "5", "--json"]).json();
+    assert_eq!(violation(&schema, &fastest), None);
+    let edge = fastest["smallest_duration_s"].as_f64().expect("a duration");
+    assert!((edge / pass - 1.0).abs() < 0.1, "{edge} {pass}");
+    let tries = |found: &Value| found["tries"].as_array().map_or(0, Vec::len);
+    assert_eq!(fastest["tries"][0]["start"], "fastest");
+    assert!(tries(&fastest) < tries(&found), "{fastest}");
 }
 
 #[test]
@@ -106,7 +115,8 @@ fn an_interrupted_search_prints_what_it_knows() {
     long["weights"] = json!({ "control": 1e-4 });
     let folder = folder_with(&long);
     let mut child = command(folder.path())
-        .args(["reach", "scenario.json", "--resolution", "0.01", "--out", "out", "--json"])
+        .args(["reach", "scenario.json", "--resolution", "0.01", "--step-by-step", "--out", "out"])
+        .arg("--json")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

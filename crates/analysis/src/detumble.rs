@@ -16,7 +16,7 @@ const CLIMBS: usize = 4;
 /// The climb ends when its step is below this part of a joint's range.
 const FINEST: f64 = 1e-7;
 
-/// The least angular rate that a base can have when its arm stands still, rad/s.
+/// The least angular rate that a base can have when its arm stands still where it may end, rad/s.
 ///
 /// Momentum h₀ is conserved, and with the joints at rest h = Ĩ(q) ω, so
 ///
@@ -24,7 +24,8 @@ const FINEST: f64 = 1e-7;
 /// ‖ω‖ ≥ ‖h₀‖ / max_q λ_max(Ĩ(q)),
 /// ```
 ///
-/// the maximum over the postures within the joints' limits that keep their clearances. It is found
+/// the maximum over the postures within the joints' limits that keep their clearances, with the joints whose end is
+/// given where that says. It is found
 /// from evenly spread postures and the start by climbing from the best of them, the same way every time.
 /// Wheels take as much of h₀ as they can store in the best direction. Whether the arm can get there, and in the
 /// time there is, does not count: a bound may be out of reach.
@@ -44,7 +45,7 @@ pub fn rate_bound_rad_s(scenario: &Scenario) -> f64 {
 /// max_q λ_max(Ĩ(q)) of [`rate_bound_rad_s`], kg m².
 pub fn largest_inertia_kg_m2(scenario: &Scenario) -> f64 {
     let start = &scenario.initial().joint_angles_rad;
-    highest(scenario.system(), scenario.collision(), Some(start), largest_moment)
+    Postures::at_the_end(scenario).highest(Some(start), largest_moment)
 }
 
 /// The smallest and the largest principal inertia of the whole system with its joints held, over the
@@ -54,65 +55,91 @@ pub fn largest_inertia_kg_m2(scenario: &Scenario) -> f64 {
 /// faster by their ratio: no detumble divides a rate by more.
 pub fn inertia_range_kg_m2(system: &SystemDescription, collision: &CollisionModel) -> [f64; 2] {
     let smallest = |inertia: &Matrix3<f64>| -inertia.symmetric_eigenvalues().min();
-    [-highest(system, collision, None, smallest), highest(system, collision, None, largest_moment)]
+    let postures = Postures { system, collision, given_rad: &vec![None; system.joint_count()] };
+    [-postures.highest(None, smallest), postures.highest(None, largest_moment)]
 }
 
-/// Whether some posture looked at leaves less than `rate_rad_s` with the arm at rest.
+/// Whether some posture looked at in which the arm may end leaves less than `rate_rad_s` with the arm at rest.
 pub(crate) fn some_posture_is_slower(scenario: &Scenario, rate_rad_s: f64) -> bool {
-    let system = scenario.system();
+    let postures = Postures::at_the_end(scenario);
     let needed = scenario.initial().angular_momentum_n_m_s.norm() / rate_rad_s;
     let is_slower = |unit: &Vec<f64>| {
-        let posture = system.joint_angles_at(unit);
-        largest_moment(&system.model.locked_inertia(&posture)) > needed
-            && is_clear(system, scenario.collision(), &posture)
+        postures.measured(unit, largest_moment) > needed && postures.are_clear(unit)
     };
-    Halton::new(system.joint_count()).take(SAMPLES).any(|unit| is_slower(&unit))
+    Halton::new(scenario.system().joint_count()).take(SAMPLES).any(|unit| is_slower(&unit))
+}
+
+/// The postures of an arm, as points of the unit cube.
+#[derive(Clone, Copy)]
+struct Postures<'a> {
+    system: &'a SystemDescription,
+    collision: &'a CollisionModel,
+    /// The coordinates that joints have in all of them, rad or m; none where a joint is free.
+    given_rad: &'a [Option<f64>],
+}
+
+impl<'a> Postures<'a> {
+    /// Those in which a maneuver may end.
+    fn at_the_end(scenario: &'a Scenario) -> Self {
+        Self {
+            system: scenario.system(),
+            collision: scenario.collision(),
+            given_rad: scenario.end_angles_rad(),
+        }
+    }
+
+    fn at(&self, unit: &[f64]) -> Vec<f64> {
+        let free = self.system.joint_angles_at(unit).into_iter();
+        free.zip(self.given_rad).map(|(free, given)| given.unwrap_or(free)).collect()
+    }
+
+    fn measured(&self, unit: &[f64], measure: impl Fn(&Matrix3<f64>) -> f64) -> f64 {
+        measure(&self.system.model.locked_inertia(&self.at(unit)))
+    }
+
+    fn are_clear(&self, unit: &[f64]) -> bool {
+        let posture = self.system.model.kinematics(&self.at(unit));
+        let mut clearances = self.collision.clearances(&posture);
+        clearances.all(|clearance| clearance.distance_m >= clearance.least_m)
+    }
+
+    /// The highest that a measure of Ĩ(q) gets over those that keep their clearances; where none is found that does,
+    /// over all.
+    fn highest(&self, start_rad: Option<&[f64]>, measure: impl Fn(&Matrix3<f64>) -> f64) -> f64 {
+        let joints = self.system.joint_count();
+        let height = |unit: &[f64]| self.measured(unit, &measure);
+        let start = start_rad.map(|angles| unit_of(self.system, angles));
+        let mut samples: Vec<(f64, Vec<f64>)> = Halton::new(joints)
+            .take(SAMPLES)
+            .chain(start)
+            .map(|unit| (height(&unit), unit))
+            .collect();
+        samples.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let highest = |tops: Vec<(f64, Vec<f64>)>| {
+            let highest = tops.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
+            highest.expect("the climbs start from some sample")
+        };
+        let starts = samples.iter().take(CLIMBS).cloned();
+        let axes = directions(joints, false);
+        let (top, unit) = highest(starts.map(|start| climb(start, &axes, height)).collect());
+        if self.are_clear(&unit) {
+            return top;
+        }
+        let starts: Vec<_> =
+            samples.into_iter().filter(|(_, unit)| self.are_clear(unit)).take(CLIMBS).collect();
+        if starts.is_empty() {
+            return top;
+        }
+        // Along the edge of what is clear, a step along one axis leads into a collision or downhill.
+        let diagonals = directions(joints, true);
+        let clear =
+            |unit: &[f64]| if self.are_clear(unit) { height(unit) } else { f64::NEG_INFINITY };
+        highest(starts.into_iter().map(|start| climb(start, &diagonals, clear)).collect()).0
+    }
 }
 
 fn largest_moment(inertia: &Matrix3<f64>) -> f64 {
     inertia.symmetric_eigenvalues().max()
-}
-
-fn is_clear(system: &SystemDescription, collision: &CollisionModel, posture: &[f64]) -> bool {
-    let posture = system.model.kinematics(posture);
-    collision.clearances(&posture).all(|clearance| clearance.distance_m >= clearance.least_m)
-}
-
-/// The highest that a measure of Ĩ(q) gets over the postures that keep their clearances; where none is
-/// found that does, over all.
-fn highest(
-    system: &SystemDescription,
-    collision: &CollisionModel,
-    start_rad: Option<&[f64]>,
-    measure: impl Fn(&Matrix3<f64>) -> f64,
-) -> f64 {
-    let joints = system.joint_count();
-    let height =
-        |unit: &[f64]| measure(&system.model.locked_inertia(&system.joint_angles_at(unit)));
-    let is_clear = |unit: &[f64]| is_clear(system, collision, &system.joint_angles_at(unit));
-    let start = start_rad.map(|angles| unit_of(system, angles));
-    let mut samples: Vec<(f64, Vec<f64>)> =
-        Halton::new(joints).take(SAMPLES).chain(start).map(|unit| (height(&unit), unit)).collect();
-    samples.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let highest = |tops: Vec<(f64, Vec<f64>)>| {
-        let highest = tops.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
-        highest.expect("the climbs start from some sample")
-    };
-    let starts = samples.iter().take(CLIMBS).cloned();
-    let axes = directions(joints, false);
-    let (top, unit) = highest(starts.map(|start| climb(start, &axes, height)).collect());
-    if is_clear(&unit) {
-        return top;
-    }
-    let starts: Vec<_> =
-        samples.into_iter().filter(|(_, unit)| is_clear(unit)).take(CLIMBS).collect();
-    if starts.is_empty() {
-        return top;
-    }
-    // Along the edge of what is clear, a step along one axis leads into a collision or downhill.
-    let diagonals = directions(joints, true);
-    let clear = |unit: &[f64]| if is_clear(unit) { height(unit) } else { f64::NEG_INFINITY };
-    highest(starts.into_iter().map(|start| climb(start, &diagonals, clear)).collect()).0
 }
 
 /// The point of the unit cube at which the joints have these angles, whole turns of a joint without limits

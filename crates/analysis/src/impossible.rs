@@ -1,11 +1,13 @@
 //! Maneuvers that no motion of the arm makes.
 
+mod held;
+
 use std::error::Error;
 use std::fmt;
 
 use nalgebra::Vector3;
 use righting_scenario::scenario::Slew;
-use righting_scenario::wheels::any_works;
+use righting_scenario::wheels::{any_works, stored_at_start};
 use righting_scenario::{Leg, Maneuver, Scenario};
 use righting_verifier::ATTITUDE_ERROR;
 
@@ -61,6 +63,15 @@ pub enum Impossible {
         /// Angle between it, whichever way it points, and the axis asked, deg.
         off_deg: f64,
     },
+    /// Wheels cannot hold the momentum in an attitude in which the base shall rest.
+    Unheld {
+        /// The attitude: `the target`, or `waypoint` with its number.
+        place: String,
+        /// What is left of the momentum at the least, N m s.
+        left_n_m_s: f64,
+        /// And turns the base at this rate at the least, deg/s.
+        least_deg_s: f64,
+    },
     /// The joints are too slow for the duration.
     TooShort {
         /// No motion of the joints turns the base by as much, deg.
@@ -72,6 +83,13 @@ pub enum Impossible {
     },
     /// No joint changes the rate that a detumble shall reduce.
     NothingSlows,
+    /// In the posture in which the arm shall end the base turns no slower than with the arm stopped at the start.
+    EndPosture {
+        /// The least rate in that posture, deg/s.
+        least_deg_s: f64,
+        /// The rate left by stopping the arm where it starts, deg/s.
+        stopped_deg_s: f64,
+    },
     /// The posture at the start has the largest inertia of all: no other leaves less rate.
     LargestInertia {
         /// The largest principal inertia within the joints' limits and clearances, kg m².
@@ -85,8 +103,15 @@ impl Impossible {
     /// What makes the maneuver of a scenario impossible, if that is known without planning it. A slew that
     /// is within its tolerance of doing nothing is always possible.
     pub fn of(scenario: &Scenario) -> Option<Self> {
+        if let Some(unheld) = held::unheld(scenario) {
+            return Some(unheld);
+        }
         if any_works(scenario.wheels()) {
             return of_wheels(scenario);
+        }
+        // What failed wheels keep turns the base, whatever the arm does.
+        if stored_at_start(scenario.wheels()) != Vector3::zeros() {
+            return None;
         }
         if scenario.acting_environment().is_some() {
             return None;
@@ -205,7 +230,13 @@ fn of_detumble(scenario: &Scenario) -> Option<Impossible> {
         let least_rad_s = scenario.initial().angular_momentum_n_m_s.norm() / inertia_kg_m2;
         if least_rad_s >= enough_rad_s {
             let stopped_deg_s = stopped_rad_s.to_degrees();
-            return Some(Impossible::LargestInertia { inertia_kg_m2, stopped_deg_s });
+            return Some(match scenario.end_angles_rad().iter().any(Option::is_some) {
+                true => {
+                    let least_deg_s = least_rad_s.to_degrees();
+                    Impossible::EndPosture { least_deg_s, stopped_deg_s }
+                }
+                false => Impossible::LargestInertia { inertia_kg_m2, stopped_deg_s },
+            });
         }
     }
     let turnable = TurnableAxes::new(scenario.system());
@@ -257,6 +288,11 @@ impl fmt::Display for Impossible {
                  {off_deg:.1}\u{b0} from it",
                 Shown(axis)
             ),
+            Self::Unheld { place, left_n_m_s, least_deg_s } => write!(
+                f,
+                "the wheels cannot hold the angular momentum in {place}; {left_n_m_s:.3e} N m s are left, and the base \
+                 turns at {least_deg_s:.3} deg/s at the least there"
+            ),
             Self::TooShort { most_deg, angle_deg, duration_s } => write!(
                 f,
                 "the duration is too short for this arm; in {duration_s} s its joints turn the base by less \
@@ -267,6 +303,12 @@ impl fmt::Display for Impossible {
             Self::NothingSlows => {
                 write!(f, "nothing that this arm's joints do changes the base's rate")
             }
+            Self::EndPosture { least_deg_s, stopped_deg_s } => write!(
+                f,
+                "in the posture in which the arm shall end, final.joint_angles_deg, the base turns no slower than with \
+                 the arm stopped where it starts; {least_deg_s:.4} deg/s there at the least, {stopped_deg_s:.4} \
+                 deg/s here"
+            ),
             Self::LargestInertia { inertia_kg_m2, stopped_deg_s } => write!(
                 f,
                 "the posture already has the largest inertia within reach; stopping the arm there leaves \

@@ -8,6 +8,7 @@
 //! - [`power`]: torques of a plan's joints, and the power they draw;
 //! - [`limited_loads`](mod@limited_loads): torques and loads beside their limits;
 //! - [`motors`]: what the motors of a plan's joints draw;
+//! - [`wheel_motors`]: what the motors of reaction wheels do along a plan;
 //! - [`histories`]: momentum and clearances along a plan.
 //!
 //! ```
@@ -33,6 +34,7 @@ pub mod impossible;
 pub mod limited_loads;
 pub mod motors;
 pub mod power;
+pub mod wheel_motors;
 pub mod zonotope;
 
 pub use abilities::Abilities;
@@ -42,4 +44,5 @@ pub use impossible::Impossible;
 pub use limited_loads::limited_loads;
 pub use motors::Motors;
 pub use power::PowerProfile;
+pub use wheel_motors::WheelMotors;
 pub use zonotope::Zonotope;

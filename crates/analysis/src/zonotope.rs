@@ -15,6 +15,8 @@ use crate::hull::{Mesh, convex_hull};
 const MEAN_DIRECTIONS: usize = 20_000;
 /// Two unit vectors whose cross product is shorter than this are parallel.
 const PARALLEL: f64 = 1e-9;
+/// Rounds over all wheels in the search for the point nearest to another.
+const SWEEPS: usize = 500;
 
 /// What an array reaches, in one unit: that of the wheels that work.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +56,26 @@ impl Zonotope {
     /// The support function Σ |n·g_i|: the largest component along the unit vector `direction`.
     pub fn extent(&self, direction: &Vector3<f64>) -> f64 {
         self.generators.iter().map(|generator| direction.dot(generator).abs()).sum()
+    }
+
+    /// How far a point is from all that the wheels reach together; zero within. It is never more than the truth.
+    pub fn distance_to(&self, point: &Vector3<f64>) -> f64 {
+        // The nearest point, wheel by wheel: the squared distance is convex in what each gives.
+        let mut shares = vec![0.0; self.generators.len()];
+        let mut left = *point;
+        for _ in 0..SWEEPS {
+            for (share, generator) in shares.iter_mut().zip(&self.generators) {
+                let before = *share;
+                *share =
+                    (before + generator.dot(&left) / generator.norm_squared()).clamp(-1.0, 1.0);
+                left -= generator * (*share - before);
+            }
+        }
+        // The plane through it across the way there has all that is reached on its one side.
+        match left.try_normalize(0.0) {
+            Some(way) => (way.dot(point) - self.extent(&way)).max(0.0),
+            None => 0.0,
+        }
     }
 
     /// Unit normals of the facets, one of each opposite pair; none if all wheels lie in a plane.
@@ -180,6 +202,8 @@ mod tests {
             torque_max_n_m: 0.1 + u[4],
             steady_power_w: 0.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         let points = Halton::starting_after(5, 10 + 100 * seed);
@@ -223,6 +247,8 @@ mod tests {
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         let wheels = vec![
@@ -271,6 +297,28 @@ mod tests {
     }
 
     #[test]
+    fn distances_from_zonotopes_are_those_from_their_facets() {
+        for seed in 0..12 {
+            let zonotope = Zonotope::momenta(&random_array(3 + seed as usize % 5, seed));
+            let hull = convex_hull(&corners_by_force(&zonotope));
+            for direction in fibonacci(50) {
+                let facets =
+                    hull.triangles.iter().map(|triangle| triangle.map(|i| hull.vertices[i]));
+                for [a, b, c] in facets {
+                    // Above the middle of a facet that facet is the nearest.
+                    let middle = (a + b + c) / 3.0;
+                    let up = (b - a).cross(&(c - a)).normalize();
+                    let up = up * up.dot(&middle).signum();
+                    close(zonotope.distance_to(&(middle + up * 0.3)), 0.3);
+                }
+                let reach = zonotope.extent(&direction);
+                assert!(zonotope.distance_to(&(direction * 1.01 * reach)) >= 0.01 * reach - 1e-9);
+                close(zonotope.distance_to(&(direction * 0.9 * zonotope.radii().min)), 0.0);
+            }
+        }
+    }
+
+    #[test]
     fn wheels_in_a_plane_reach_nothing_across_it() {
         let wheel = |x: f64, y: f64| Wheel {
             axis: [x, y, 0.0],
@@ -278,6 +326,8 @@ mod tests {
             torque_max_n_m: 1.0,
             steady_power_w: 5.0,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         for wheels in [vec![wheel(1.0, 0.0)], vec![wheel(1.0, 0.0), wheel(0.0, 1.0)]] {

@@ -162,6 +162,66 @@ fn a_detumble_that_starts_with_the_largest_inertia_cannot_improve() {
     assert_eq!(Impossible::of(&detumble(60.0, [0.0, 0.0])), None);
 }
 
+/// Folded, the arm has less inertia than where it starts: the base cannot turn slower with it so.
+#[test]
+fn a_detumble_that_ends_in_a_posture_of_less_inertia_cannot_improve() {
+    let ending = |end_deg: [Option<f64>; 2]| {
+        varied(&detumble(60.0, [0.0, 0.0]), |file| {
+            file.end.get_or_insert_default().joint_angles_deg = Some(end_deg.to_vec());
+        })
+    };
+    assert_eq!(Impossible::of(&ending([Some(0.0), Some(30.0)])), None);
+    assert_eq!(Impossible::of(&ending([Some(0.0), None])), None);
+    let folded = ending([Some(0.0), Some(120.0)]);
+    let Some(Impossible::EndPosture { least_deg_s, stopped_deg_s }) = Impossible::of(&folded)
+    else {
+        panic!("{:?}", Impossible::of(&folded))
+    };
+    let model = &folded.system().model;
+    let [here, there] =
+        [60.0_f64, 120.0].map(|second| model.locked_inertia(&[0.0, second.to_radians()])[(2, 2)]);
+    assert!((stopped_deg_s - 2.0).abs() < 1e-9);
+    assert!((least_deg_s - 2.0 * here / there).abs() < 1e-6, "{least_deg_s}");
+    assert!((rate_bound_rad_s(&folded).to_degrees() - least_deg_s).abs() < 1e-9);
+}
+
+fn with_wheels(wheels: &[Value], angle_deg: f64) -> Option<Impossible> {
+    let scenario = varied(&shipped("slew_4dof"), |file| {
+        file.maneuver.axis = Some([1.0, 0.0, 0.0]);
+        file.maneuver.angle_deg = Some(angle_deg);
+        file.wheels = serde_json::from_value(json!(wheels)).unwrap();
+    });
+    Impossible::of(&scenario)
+}
+
+/// A wheel along z that spins and has failed: turned about x by α, H sin α is left across it and H (1 − cos α) along it.
+#[test]
+fn momentum_that_the_wheels_cannot_hold_turns_the_base() {
+    let wheel = |axis: [f64; 3], momentum: f64, failed: bool| {
+        json!({ "axis": axis, "momentum_max_n_m_s": 1.0, "torque_max_n_m": 0.1,
+                "initial_momentum_n_m_s": momentum, "failed": failed })
+    };
+    let spinning = wheel([0.0, 0.0, 1.0], 0.9, true);
+    let (y, z) = (wheel([0.0, 1.0, 0.0], 0.0, false), wheel([0.0, 0.0, 1.0], 0.0, false));
+    let turn = 60.0_f64.to_radians();
+    let (across, along) = (0.9 * turn.sin(), 0.9 * (1.0 - turn.cos()));
+    for (others, left) in
+        [(vec![], across.hypot(along)), (vec![y.clone()], along), (vec![z.clone()], across)]
+    {
+        let wheels = [std::slice::from_ref(&spinning), &others[..]].concat();
+        let found = with_wheels(&wheels, 60.0);
+        let Some(Impossible::Unheld { place, left_n_m_s, least_deg_s }) = found else {
+            panic!("{others:?}: {found:?}")
+        };
+        assert_eq!(place, "the target");
+        // Less what the attitude's tolerance lets pass.
+        assert!(left_n_m_s <= left && left - left_n_m_s < 0.003 * 0.9, "{left_n_m_s} {left}");
+        assert!(least_deg_s > 0.1 && least_deg_s < 5.0, "{least_deg_s}");
+    }
+    assert_eq!(with_wheels(&[spinning.clone(), y, z], 60.0), None);
+    assert_eq!(with_wheels(&[spinning], 0.5), None);
+}
+
 /// What counts is the rate that stopping the arm leaves, not the rate that the base has first.
 #[test]
 fn joints_that_move_at_the_start_carry_momentum() {

@@ -1,5 +1,7 @@
 //! What stands in the way where a plan misses its target or there is none.
 
+mod cones;
+
 use righting_results::WaypointRecord;
 use righting_results::solution::{Status, Terminal};
 use righting_results::trajectory::Trajectory;
@@ -36,10 +38,12 @@ pub(crate) fn hints(scenario: &Scenario, trajectory: &Trajectory, status: Status
         Status::IterationLimit => {
             let mut reasons = vec!["the solver used up solver.max_iterations".to_owned()];
             reasons.extend(active_limits(scenario, trajectory));
+            reasons.extend(cones::in_the_way(scenario, trajectory));
             reasons
         }
         _ => {
             let mut reasons = active_limits(scenario, trajectory);
+            reasons.extend(cones::in_the_way(scenario, trajectory));
             reasons.extend(fast_spin(scenario));
             reasons
         }
@@ -69,13 +73,15 @@ fn reasons(scenario: &Scenario, trajectory: &Trajectory, missed: Vec<String>) ->
         return reasons;
     }
     let limits = active_limits(scenario, trajectory);
-    if limits.is_empty() {
+    let cones = cones::in_the_way(scenario, trajectory);
+    if limits.is_empty() && cones.is_empty() {
         reasons.push(match scenario.is_end_hard() {
             true => "no joint is at a limit most of the time".to_owned(),
             false => "no joint is at a limit most of the time: effort is in the way".to_owned(),
         });
     }
     reasons.extend(limits);
+    reasons.extend(cones);
     reasons
 }
 

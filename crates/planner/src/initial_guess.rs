@@ -151,6 +151,8 @@ impl InitialGuesses<'_> {
             .collect();
         let old_steps = plan.steps();
         let faster = plan.end().time_s / self.scenario.horizon().duration_s;
+        let wheels = self.coordinates.wheel_set();
+        let has_wheels = plan.wheels() == self.scenario.wheels().len();
         for node in 1..=self.steps {
             let position = node as f64 * old_steps as f64 / self.steps as f64;
             let before = (position.floor() as usize).min(old_steps - 1);
@@ -162,12 +164,18 @@ impl InitialGuesses<'_> {
             state.attitude = state.attitude.normalized();
             state.joint_angles.iter_mut().zip(&shift).for_each(|(angle, shift)| *angle += shift);
             state.joint_rates.iter_mut().for_each(|rate| *rate *= faster);
-            let row = self.coordinates.of_free_floating_state(&state, self.time(node));
+            let shares = match has_wheels {
+                true => {
+                    let [a, b] = [before, before + 1]
+                        .map(|node| wheels.shares(&plan.nodes()[node].wheel_momenta_n_m_s));
+                    a.iter().zip(&b).map(|(a, b)| a + share * (b - a)).collect()
+                }
+                false => wheels.at_start(),
+            };
+            let row = self.coordinates.of_state_and_wheels(&state, &shares, self.time(node));
             guess.states.row_mut(node).copy_from_slice(&row);
         }
-        if plan.wheels() == self.scenario.wheels().len() {
-            self.take_wheels(plan, &mut guess);
-        }
+        self.give_torques_of_wheels(&mut guess);
         for joint in 0..plan.joints() {
             self.accelerate(&mut guess, joint, |steps| {
                 let phase = steps / self.steps as f64;
@@ -177,23 +185,13 @@ impl InitialGuesses<'_> {
         self.to_end_posture(guess)
     }
 
-    /// Takes the momenta of the wheels that work from an earlier plan, and with them their torques.
-    fn take_wheels(&self, plan: &Trajectory, guess: &mut InitialGuess) {
+    /// Sets the controls of the wheels that work to what takes their momenta from node to node.
+    fn give_torques_of_wheels(&self, guess: &mut InitialGuess) {
         let (first, step_s) = (self.coordinates.first_wheel(), self.step_s());
-        let states = self.coordinates.wheels();
-        let shares = |node: usize| {
-            self.coordinates.wheel_set().shares(&plan.nodes()[node].wheel_momenta_n_m_s)
-        };
-        for node in 1..=self.steps {
-            let position = node as f64 * plan.steps() as f64 / self.steps as f64;
-            let before = (position.floor() as usize).min(plan.steps() - 1);
-            let ends = shares(before).into_iter().zip(shares(before + 1));
-            for (place, (a, b)) in ends.enumerate() {
-                let state = states.start + place;
-                let share = a + (position - before as f64) * (b - a);
-                let gained = share - guess.states.row(node - 1)[state];
-                guess.states.row_mut(node)[state] = share;
-                guess.controls.row_mut(node - 1)[first + place] = gained / step_s;
+        for (place, state) in self.coordinates.wheels().enumerate() {
+            for node in 1..=self.steps {
+                let [before, after] = [node - 1, node].map(|node| guess.states.row(node)[state]);
+                guess.controls.row_mut(node - 1)[first + place] = (after - before) / step_s;
             }
         }
     }

@@ -7,9 +7,13 @@
 //! lies between, each plan being a start for the next. A value counts as failed only once it
 //! has failed from its nearest success, cold, and, where asked for, from many low-discrepancy starts.
 //!
+//! Of a slew that ends in its target whatever that takes, one plan that chooses its duration says first where to look: if
+//! the maneuver succeeds there and fails at the next value, the search is at its end.
+//!
 //! Nothing says that what is harder must fail, nor that a plan that was not found does not exist:
 //! the answer is the end of an unbroken row of successes, not a proof.
 
+mod fastest;
 mod frontier;
 mod trial;
 
@@ -31,6 +35,8 @@ use trial::Trials;
 pub const LONGEST: f64 = 16.0;
 /// Nor one below this share of it.
 pub const SHORTEST: f64 = 0.01;
+/// A free duration nearer to its longest than this has not been chosen.
+const LONGEST_SHARE: f64 = 0.99;
 /// Nor an angle beyond this, deg: the other way around would be shorter.
 pub const LARGEST_ANGLE_DEG: f64 = 180.0;
 
@@ -56,17 +62,19 @@ pub struct ReachSettings {
     pub within_percent: f64,
     /// How many low-discrepancy starts to try before a value counts as failed; 0 for none.
     pub starts: u64,
+    /// Whether a plan that chooses its duration says where to look first, where there can be one.
+    pub plans_fastest: bool,
 }
 
 impl ReachSettings {
     /// The defaults for a quantity: 1 % of a duration or 0.5°, within 2 % of the bound, no other
-    /// starts.
+    /// starts, and a look at the fastest plan first.
     pub fn new(quantity: Quantity) -> Self {
         let resolution = match quantity {
             Quantity::Duration => 1.0,
             Quantity::Angle => 0.5,
         };
-        Self { quantity, resolution, within_percent: 2.0, starts: 0 }
+        Self { quantity, resolution, within_percent: 2.0, starts: 0, plans_fastest: true }
     }
 }
 
@@ -162,6 +170,8 @@ pub enum StartedFrom {
     Cold,
     /// A neighbor's plan, beside the scenario's own guess.
     Neighbor,
+    /// The plan that chooses its duration.
+    Fastest,
     /// Low-discrepancy starts.
     #[serde(rename = "random")]
     LowDiscrepancy,
@@ -214,8 +224,12 @@ pub fn reach(
         Maneuver::Detumble => Some(rate_bound_rad_s(scenario).to_degrees()),
         Maneuver::Slew(_) => None,
     };
-    let mut frontier = Frontier::new(line);
     let mut trials = Trials::new(scenario, settings, bound_deg_s, watch);
+    let aim = match settings.quantity {
+        Quantity::Duration if settings.plans_fastest => trials.plan_fastest()?,
+        _ => None,
+    };
+    let mut frontier = Frontier::new(line, aim);
     while let Some(value) = frontier.next()
         && !trials.is_interrupted
         && let Some(succeeded) = trials.attempt(value)?

@@ -47,15 +47,15 @@ const HARD_DETUMBLE_EFFORT: f64 = 0.01;
 pub(crate) struct WaypointWeights {
     /// Of the vector part of the attitude error.
     pub(crate) attitude: f64,
-    /// Of joint rates and accelerations.
-    pub(crate) joint_rate: f64,
+    /// Of joint rates and accelerations, and of the base's rate.
+    pub(crate) rate: f64,
 }
 
 impl WaypointWeights {
     pub(crate) fn of(measured: &Scenario) -> Self {
         let turn_rad =
             measured.maneuver().slew().map_or(0.0, |slew| largest_turn_rad(measured, slew));
-        Self { attitude: hard_attitude(turn_rad), joint_rate: HARD_RATE }
+        Self { attitude: hard_attitude(turn_rad), rate: HARD_RATE }
     }
 }
 

@@ -2,9 +2,12 @@
 
 use std::time::Duration;
 
+use nalgebra::Vector3;
+use righting_multibody::Quaternion;
 use righting_ocp::Control;
 use righting_planner::{Planned, Planner};
 use righting_scenario::Scenario;
+use righting_scenario::file::Pointing;
 use righting_test_support::{shipped, varied};
 use righting_verifier::verify;
 
@@ -53,6 +56,40 @@ fn where_limits_are_in_the_way_they_are_named_and_more_time_is_tried() {
     let longer_s = named(&notes, "horizon.duration_s ");
     assert!((6.0..12.0).contains(&longer_s) && passes(&slew_in(longer_s, 1e-4)), "{notes:?}");
     assert!(!notes.iter().any(|note| note.starts_with("weights.control")), "{notes:?}");
+}
+
+/// The boresight half-way on the shortest turn is in the middle of a cone.
+#[test]
+fn a_cone_across_the_way_is_named() {
+    let free = slew_in(7.0, 1e-4);
+    let slew = free.maneuver().slew().unwrap().clone();
+    let boresight = Vector3::x();
+    let [middle, end] = [0.5, 1.0].map(|share| {
+        let turn = Quaternion::from_axis_angle(&slew.axis, share * slew.angle_rad);
+        turn.to_inertial(&boresight)
+    });
+    let scenario = varied(&free, |file| {
+        file.pointing = vec![Pointing {
+            name: "tracker and Sun".to_owned(),
+            boresight_body: boresight.into(),
+            direction_inertial: Some(middle.into()),
+            direction_table: None,
+            keep_out_deg: Some(0.7 * middle.angle(&end).to_degrees()),
+            keep_in_deg: None,
+        }];
+    });
+    let said = |scenario: &Scenario| {
+        let notes = planned(scenario).solution.notes;
+        assert!(
+            notes[0].starts_with("misses its target") || notes[0].contains("limit"),
+            "{notes:?}"
+        );
+        notes.join("; ")
+    };
+    let notes = said(&scenario);
+    let through = "the shortest turn goes through the cone of \"tracker and Sun\"";
+    assert!(notes.contains(through), "{notes}");
+    assert!(!said(&free).contains("cone"));
 }
 
 #[test]

@@ -69,6 +69,32 @@ fn the_shortest_duration_lies_between_failures_and_successes() {
     assert!(limits.notes[0].contains("fails even with"), "{:?}", limits.notes);
 }
 
+/// One plan that chooses its duration finds the edge that the search finds step by step, or a shorter one, and it takes a
+/// few tries to show it.
+#[test]
+fn the_fastest_plan_is_at_the_edge() {
+    for (name, resolution) in
+        [("slew_2dof", 2.0), ("slew_4dof", 2.0), ("slew_canadarm2_table", 4.0)]
+    {
+        let scenario = varied(&coarse(name), |file| {
+            file.weights = righting_scenario::file::Weights::default();
+            file.end = None;
+        });
+        let settings = ReachSettings { resolution, ..ReachSettings::new(Quantity::Duration) };
+        let found = searched(&scenario, settings);
+        let stepwise = searched(&scenario, ReachSettings { plans_fastest: false, ..settings });
+        let [edge, compared] = [&found, &stepwise].map(|found| found.first_succeeding.unwrap());
+        assert!(edge <= compared * (1.0 + 2.0 * resolution / 100.0), "{name}: {edge} {compared}");
+        assert_eq!(found.tries[0].start, StartedFrom::Fastest, "{name}");
+        assert!(found.tries.len() < stepwise.tries.len(), "{name}: {}", found.tries.len());
+        let fail = found.last_failing.unwrap();
+        assert!(0.0 < edge - fail && edge - fail <= resolution / 100.0 * edge, "{fail} {edge}");
+        let plan = found.plan.unwrap();
+        assert_eq!(plan.scenario.horizon().duration_s, edge);
+        assert!(verify(&plan.scenario, &plan.planned.trajectory).passed);
+    }
+}
+
 #[test]
 fn a_search_that_begins_with_failure_goes_to_easier_values() {
     let scenario = varied(&coarse("slew_2dof"), |file| {

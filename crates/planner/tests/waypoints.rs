@@ -132,6 +132,29 @@ fn waypoints_go_with_jerks_cones_and_the_full_form() {
     }
 }
 
+/// Wheels turn the base while the joints rest: a stop at a single node is one of the base too. Surroundings go with it.
+#[test]
+fn the_base_stops_at_waypoints_with_wheels_too() {
+    let file = scenarios().join("wheels/slew_4dof_and_back_wheels.json");
+    let shipped = Scenario::read(&file).unwrap();
+    plan(&shipped);
+    let scenario = varied(&shipped, |file| {
+        file.maneuver.waypoints[0].dwell_s = Some(0.0);
+        file.maneuver.waypoints[0].duration_s = None;
+        let gravity_gradient = Some(file::GravityGradient {
+            altitude_km: 400.0,
+            orbit_attitude: None,
+            elements: None,
+        });
+        file.environment = Some(file::Environment { gravity_gradient, ..Default::default() });
+    });
+    let planned = plan(&scenario);
+    let [record] = planned.solution.waypoints.as_slice() else { panic!("one waypoint") };
+    assert_eq!(record.arrival_s, record.departure_s);
+    let fastest = planned.trajectory.nodes().iter().map(fastest_deg_s).fold(0.0, f64::max);
+    assert!(record.angular_rate_deg_s < 0.02 * fastest, "{record:?} {fastest}");
+}
+
 /// The plan of one grid starts the next.
 #[test]
 fn a_plan_with_waypoints_starts_from_an_earlier_one() {

@@ -1,6 +1,8 @@
 //! Reaction wheels beside the arm.
 
 use nalgebra::Vector3;
+use righting_analysis::motors::Braking;
+use righting_analysis::{PowerProfile, WheelMotors};
 use righting_ocp::Control;
 use righting_planner::planner::PlanError;
 use righting_planner::{Planned, Planner};
@@ -28,6 +30,8 @@ fn wheel(axis: [f64; 3], momentum_max_n_m_s: f64, torque_max_n_m: f64) -> Wheel 
         torque_max_n_m,
         steady_power_w: None,
         initial_momentum_n_m_s: None,
+        inertia_kg_m2: None,
+        viscous_friction_n_m_s: None,
         failed: false,
     }
 }
@@ -78,6 +82,55 @@ fn the_fastest_turn_by_a_wheel_is_bang_bang() {
         let off = found_s / expected_s - 1.0;
         assert!(off.abs() < 5e-3, "{angle_deg}: {found_s} {expected_s}, {off:.1e}");
     }
+}
+
+/// With friction the motor gives ḣ + f h, f = b/J. At its limit T it speeds the wheel up to h₁ = (1 − exp(−f t₁)) T/f and slows it
+/// down in t₂ = ln(1 + f h₁/T)/f: momentum over time is T (t₁ − t₂)/f, which the base has turned by its inertia.
+#[test]
+fn friction_is_part_of_what_the_motor_gives() {
+    let (torque, friction_1_s) = (0.5, 0.2);
+    let scenario = |angle_deg: f64| {
+        varied(&shipped("slew_2dof"), |file| {
+            lock_arm(file);
+            file.maneuver.axis = Some([0.0, 0.0, 1.0]);
+            file.maneuver.angle_deg = Some(angle_deg);
+            file.wheels = vec![Wheel {
+                inertia_kg_m2: Some(0.01),
+                viscous_friction_n_m_s: Some(0.01 * friction_1_s),
+                ..wheel([0.0, 0.0, 1.0], 10.0, torque)
+            }];
+            file.horizon.duration_s = Duration::Free(DurationRange { min: 0.5, max: 60.0 });
+            file.horizon.steps = 400.0;
+            file.weights = file::Weights::default();
+            file.end = None;
+        })
+    };
+    let turned = scenario(10.0);
+    let posture = &turned.initial().joint_angles_rad;
+    let inertia = turned.system().model.locked_inertia(posture)[(2, 2)];
+    let speeding_up_s = 8.0_f64;
+    let most = torque / friction_1_s * (1.0 - (-friction_1_s * speeding_up_s).exp());
+    let slowing_down_s = (1.0 + friction_1_s * most / torque).ln() / friction_1_s;
+    let angle = torque * (speeding_up_s - slowing_down_s) / (friction_1_s * inertia);
+    let planned = verified(&scenario(angle.to_degrees()));
+    let expected_s = speeding_up_s + slowing_down_s;
+    let found_s = planned.solution.duration_s.unwrap();
+    assert!((found_s / expected_s - 1.0).abs() < 5e-3, "{found_s} {expected_s}");
+
+    // The motor's work is what friction takes, since the wheel ends as it starts.
+    let slower = varied(&scenario(angle.to_degrees()), |file| {
+        file.horizon.duration_s = Duration::Given(1.2 * expected_s);
+    });
+    let planned = verified(&slower);
+    let profile = PowerProfile::new(&slower, &planned.trajectory).unwrap();
+    let motors = WheelMotors::new(slower.wheels(), &planned.trajectory, &profile).unwrap();
+    let (work, heat) = (motors.consumption(Braking::FedBack).energy_j, motors.friction_j());
+    let stored = motors.kinetic_energy_change_j();
+    assert!((work - heat - stored).abs() < 1e-9 * work, "{work} {heat} {stored}");
+    assert!(stored.abs() < 1e-6 * work && motors.consumption(Braking::Burnt).energy_j > work);
+    let fastest = planned.trajectory.nodes().iter().map(|node| node.wheel_momenta_n_m_s[0].abs());
+    let [peak] = motors.peak_speeds_rad_s() else { panic!("one wheel") };
+    assert!((peak / (fastest.fold(0.0, f64::max) / 0.01) - 1.0).abs() < 1e-9);
 }
 
 /// A pyramid of which two wheels have failed, one of them spinning: the arm turns what the others cannot.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use righting_analysis::motors::{Braking, Losses};
 use righting_analysis::power::{Accounting, Instant};
-use righting_analysis::{Motors, PowerProfile};
+use righting_analysis::{Motors, PowerProfile, WheelMotors};
 use righting_results::Solution;
 use righting_scenario::WheelArray;
 
@@ -30,6 +30,8 @@ pub struct PowerComparison<'a> {
     pub efficiency: f64,
     /// Wheels that would do the same.
     pub wheels: &'a WheelArray,
+    /// What the motors of the plan's own wheels do, where their inertias are known.
+    pub wheel_motors: Option<&'a WheelMotors<'a>>,
 }
 
 /// What a reader calls a variant.
@@ -52,6 +54,7 @@ pub fn power_svg(solution: &Solution, comparison: PowerComparison<'_>) -> String
         drawn_panel(comparison),
     ];
     panels.extend(comparison.motors.map(|motors| motor_panel(motors, comparison.wheels)));
+    panels.extend(comparison.wheel_motors.map(wheel_motor_panel));
     let instants = comparison.profile.instants();
     let (title, subtitle) = heading(solution);
     let figure = Figure {
@@ -130,6 +133,23 @@ fn motor_panel(motors: &Motors<'_>, wheels: &WheelArray) -> Panel {
     }
 }
 
+fn wheel_motor_panel(motors: &WheelMotors<'_>) -> Panel {
+    let curve = |name: &str, color, braking| {
+        let drawn_w = motors.drawn_w(braking);
+        Curve { name: name.to_owned(), ..Curve::plain(color, drawn_w) }
+    };
+    Panel {
+        heading: "Mechanical power of the wheels' motors".to_owned(),
+        axis_label: "Power [W]",
+        curves: vec![
+            curve("regen.", style::SERIES[3], Braking::FedBack),
+            curve("no regen.", style::SERIES[2], Braking::Burnt),
+        ],
+        least_span: LEAST_POWER_SPAN_W,
+        ..Panel::default()
+    }
+}
+
 /// The steady power of the wheel that takes least, W.
 fn one_wheel_w(wheels: &WheelArray) -> f64 {
     wheels.wheels().iter().map(|wheel| wheel.steady_power_w).fold(f64::INFINITY, f64::min)
@@ -154,7 +174,7 @@ fn joint_curves(instants: &[Instant], of: impl Fn(&Instant) -> &Vec<f64>) -> Vec
 
 /// The comparison as a table for people.
 pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> String {
-    let PowerComparison { profile, motors, efficiency, wheels } = comparison;
+    let PowerComparison { profile, motors, efficiency, wheels, wheel_motors } = comparison;
     let mut text = String::new();
     let mut line = |arguments: std::fmt::Arguments<'_>| {
         text.write_fmt(arguments).expect("a string takes all that is written to it");
@@ -185,6 +205,15 @@ pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> Stri
     let steady_w = wheels.steady_power_w();
     let name = format!("{} wheels, spinning steadily", wheels.wheels().len());
     row(&name, [steady_w, steady_w, steady_w * profile.duration_s()]);
+    let of_wheels = [
+        ("wheels, motors, no regeneration", Braking::Burnt),
+        ("wheels, motors, with regeneration", Braking::FedBack),
+    ];
+    for (name, braking) in of_wheels {
+        if let Some(used) = wheel_motors.map(|motors| motors.consumption(braking)) {
+            row(name, [used.peak_w, used.mean_w, used.energy_j]);
+        }
+    }
     let but_motors = if motors.is_some() { ", motors at their own" } else { "" };
     line(format_args!(
         "  at an efficiency of {} of the arm's actuators{but_motors}",
@@ -203,6 +232,15 @@ pub fn power_table(solution: &Solution, comparison: PowerComparison<'_>) -> Stri
             short(gears_j),
             short(friction_j),
             short(standing_j),
+        ));
+    }
+    if let Some(motors) = wheel_motors {
+        let rpm = |speed: &f64| speed * 60.0 / std::f64::consts::TAU;
+        line(format_args!(
+            "  peak speeds of the wheels {} rpm; heat of their friction {} J, change of their kinetic energy {} J",
+            list(motors.peak_speeds_rad_s().iter().map(rpm).collect()),
+            short(motors.friction_j()),
+            short(motors.kinetic_energy_change_j()),
         ));
     }
     line(format_args!(

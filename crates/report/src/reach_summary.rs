@@ -98,6 +98,7 @@ fn table(reach: &Reach) -> Vec<String> {
 fn start(tried: &Try) -> String {
     match (tried.start, tried.neighbor) {
         (StartedFrom::Neighbor, Some(neighbor)) => format!("plan of {neighbor}"),
+        (StartedFrom::Fastest, _) => "fastest plan".to_owned(),
         (StartedFrom::LowDiscrepancy, _) => "random".to_owned(),
         _ => "cold".to_owned(),
     }

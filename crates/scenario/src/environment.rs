@@ -95,14 +95,36 @@ impl Environment {
     }
 }
 
+impl file::GravityGradient {
+    /// The same orbit, with the start so much later.
+    pub fn move_on(&mut self, time_s: f64) {
+        let turned = rate_rad_s(self.altitude_km) * time_s;
+        match (&mut self.elements, &mut self.orbit_attitude) {
+            (Some(elements), _) => {
+                let angle_deg = elements.argument_of_latitude_deg + turned.to_degrees();
+                elements.argument_of_latitude_deg = angle_deg % 360.0;
+            }
+            (None, attitude) => {
+                // y of the orbit's frame is against the orbit's normal.
+                let frame = Quaternion::from_array(attitude.unwrap_or([1.0, 0.0, 0.0, 0.0]));
+                let along = Quaternion::from_axis_angle(&Vector3::y(), -turned);
+                *attitude = Some(frame.product(&along).normalized().to_array());
+            }
+        }
+    }
+}
+
+/// Of a circular orbit.
+fn rate_rad_s(altitude_km: f64) -> f64 {
+    (EARTH_PARAMETER_KM3_S2 / (EARTH_RADIUS_KM + altitude_km).powi(3)).sqrt()
+}
+
 fn orbit(
     gradient: &mut file::GravityGradient,
     place: &Location,
     notes: &mut Vec<String>,
 ) -> Result<Orbit, Error> {
     let altitude_km = place.key("altitude_km").within(gradient.altitude_km, ALTITUDE_KM)?;
-    let radius_km = EARTH_RADIUS_KM + altitude_km;
-    let rate_rad_s = (EARTH_PARAMETER_KM3_S2 / radius_km.powi(3)).sqrt();
     let [nadir, ahead] = match (&gradient.elements, gradient.orbit_attitude) {
         (Some(_), Some(_)) => {
             let expected = "one of them";
@@ -116,7 +138,7 @@ fn orbit(
             [Vector3::z(), Vector3::x()].map(|axis| frame.to_inertial(&axis))
         }
     };
-    Ok(Orbit { rate_rad_s, nadir, ahead })
+    Ok(Orbit { rate_rad_s: rate_rad_s(altitude_km), nadir, ahead })
 }
 
 /// Directions to the center of the Earth and ahead.

@@ -122,7 +122,8 @@ impl Scenario {
             None => None,
         };
         let wheels = Wheel::all_from_file(&scenario.wheels, &place.key("wheels"))?;
-        if environment.is_none() && !any_works(&wheels) || maneuver == Maneuver::Detumble {
+        let needs_none = environment.is_none() && !any_works(&wheels);
+        if needs_none || maneuver == Maneuver::Detumble {
             let momentum_note =
                 check_momentum(&scenario.initial, &initial, &maneuver, &system, &initial_place)?;
             notes.extend(momentum_note);
@@ -328,6 +329,11 @@ impl Scenario {
     /// The same where anything in it acts.
     pub fn acting_environment(&self) -> Option<&Environment> {
         self.environment.as_ref().filter(|environment| environment.acts())
+    }
+
+    /// Whether a slew may have angular momentum: wheels that work can take it, or something acts from outside.
+    pub fn may_have_momentum(&self) -> bool {
+        self.environment.is_some() || any_works(&self.wheels)
     }
 
     /// Whether the base may drift at the end of a slew as its angular momentum has it: what comes from outside is

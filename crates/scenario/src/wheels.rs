@@ -17,6 +17,7 @@ pub const MAX_WHEELS: usize = 16;
 
 const LIMIT: Bounds = Bounds::Above(0.0, 1e6);
 const AXIS: Bounds = Bounds::Between(-1e6, 1e6);
+const FRICTION: Bounds = Bounds::Between(0.0, 1e6);
 const POWER: Bounds = Bounds::Between(0.0, 1e6);
 /// What a wheel of a small spacecraft takes while it just spins: the paper's figure.
 const STEADY_POWER_W: f64 = 5.0;
@@ -28,12 +29,16 @@ pub struct Wheel {
     pub axis: [f64; 3],
     /// The most momentum it stores either way, N m s.
     pub momentum_max_n_m_s: f64,
-    /// The most torque it gives either way, N m.
+    /// The most torque its motor gives either way, N m.
     pub torque_max_n_m: f64,
     /// Power it takes while it spins steadily, W.
     pub steady_power_w: f64,
     /// Momentum it stores at the start about its axis, relative to the base, N m s.
     pub initial_momentum_n_m_s: f64,
+    /// Inertia of the rotor about its axis, kg m²; none where it is not known.
+    pub inertia_kg_m2: Option<f64>,
+    /// Viscous friction of its bearing, N m s (a rad); zero where the inertia is not known.
+    pub viscous_friction_n_m_s: f64,
     /// Whether it gives no torque.
     pub failed: bool,
 }
@@ -59,8 +64,38 @@ impl Wheel {
                 None => STEADY_POWER_W,
             },
             initial_momentum_n_m_s: stored_place.within(stored, Bounds::Between(-most, most))?,
+            inertia_kg_m2: row
+                .inertia_kg_m2
+                .map(|inertia| place.key("inertia_kg_m2").within(inertia, LIMIT))
+                .transpose()?,
+            viscous_friction_n_m_s: match (row.viscous_friction_n_m_s, row.inertia_kg_m2) {
+                (None, _) => 0.0,
+                (Some(friction), Some(_)) => {
+                    place.key("viscous_friction_n_m_s").within(friction, FRICTION)?
+                }
+                (Some(_), None) => {
+                    let expected = "the rotor's inertia, which goes with viscous_friction_n_m_s";
+                    return Err(place.key("inertia_kg_m2").missing(expected));
+                }
+            },
             failed: row.failed,
         })
+    }
+
+    /// Speed of the rotor relative to the base where it stores a momentum (N m s), rad/s; none where its inertia is not
+    /// known.
+    pub fn speed_rad_s(&self, momentum_n_m_s: f64) -> Option<f64> {
+        self.inertia_kg_m2.map(|inertia| momentum_n_m_s / inertia)
+    }
+
+    /// What friction takes for each unit of momentum that is in store, 1/s.
+    pub fn friction_1_s(&self) -> f64 {
+        self.speed_rad_s(self.viscous_friction_n_m_s).unwrap_or(0.0)
+    }
+
+    /// Torque of the motor where a torque changes what the wheel stores, N m: that and what friction takes.
+    pub fn motor_torque_n_m(&self, torque_n_m: f64, momentum_n_m_s: f64) -> f64 {
+        torque_n_m + self.friction_1_s() * momentum_n_m_s
     }
 
     /// Checks wheels that were read from `place`.
@@ -82,6 +117,10 @@ impl Wheel {
             momentum_max_n_m_s: self.momentum_max_n_m_s / momentum,
             torque_max_n_m: self.torque_max_n_m / units.torque_n_m(),
             initial_momentum_n_m_s: self.initial_momentum_n_m_s / momentum,
+            inertia_kg_m2: self
+                .inertia_kg_m2
+                .map(|inertia| inertia / (units.mass_kg * units.length_m.powi(2))),
+            viscous_friction_n_m_s: self.viscous_friction_n_m_s / momentum,
             ..*self
         }
     }
@@ -177,6 +216,8 @@ impl WheelArray {
             torque_max_n_m: 0.1,
             steady_power_w: STEADY_POWER_W,
             initial_momentum_n_m_s: 0.0,
+            inertia_kg_m2: None,
+            viscous_friction_n_m_s: 0.0,
             failed: false,
         };
         Self {

@@ -89,6 +89,7 @@ mod worst_of_joints;
 
 pub use directory::{Verified, verify_directory};
 pub use dormand_prince::DormandPrince;
+pub use tolerances::at_rest_deg_s;
 pub use verify::{
     ATTITUDE_ERROR, DETUMBLE_AT_REST, SLEW_AT_REST_DEG_S, TRADED_DETUMBLE_AT_REST, simulate, verify,
 };

@@ -126,7 +126,8 @@ impl Tolerances {
     }
 }
 
-/// What is left of a rate that counts as rest, in one over the maneuver's duration.
-pub(super) fn at_rest_deg_s(deg_s: f64, duration_s: f64) -> f64 {
+/// What may be left of a rate at rest, deg/s, in a maneuver of this duration, s: of one of 30 s it is `deg_s`, and of others
+/// as much less as they are longer.
+pub fn at_rest_deg_s(deg_s: f64, duration_s: f64) -> f64 {
     deg_s * DURATION_S / duration_s
 }

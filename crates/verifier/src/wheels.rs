@@ -28,6 +28,8 @@ struct Wheel {
     momentum_max: f64,
     torque_max: f64,
     at_start: f64,
+    /// Friction over inertia, 1/s.
+    friction: f64,
     failed: bool,
 }
 
@@ -55,6 +57,9 @@ impl Wheels {
             momentum_max: wheel.momentum_max_n_m_s,
             torque_max: wheel.torque_max_n_m,
             at_start: wheel.initial_momentum_n_m_s.unwrap_or(0.0),
+            friction: wheel
+                .inertia_kg_m2
+                .map_or(0.0, |inertia| wheel.viscous_friction_n_m_s.unwrap_or(0.0) / inertia),
             failed: wheel.failed,
         };
         let end = scenario.end.as_ref().and_then(|end| end.wheel_momenta_n_m_s.clone());
@@ -113,10 +118,11 @@ impl Wheels {
     }
 }
 
-/// Momenta follow from the torques, both keep their limits, and a failed wheel gives nothing.
+/// Momenta follow from the torques, momenta and the motors' torques keep their limits, and a failed wheel gives nothing.
+/// With a rotor that turns at h/J and friction b the motor gives ḣ + b h/J, which is linear within an interval.
 pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut Ledger) {
     for (index, (wheel, end)) in asked.wheels.wheels.iter().zip(&asked.wheels.end).enumerate() {
-        let Wheel { momentum_max, torque_max, at_start, failed, .. } = *wheel;
+        let Wheel { momentum_max, torque_max, at_start, friction, failed, .. } = *wheel;
         let subject = format!("wheel {}", index + 1);
         let mut mismatch = Worst::new("wheel momentum mismatch", "N m s", 0.0);
         let mut momentum = Worst::of_limit("wheel momentum", "N m s", SHARE * momentum_max);
@@ -133,8 +139,12 @@ pub(super) fn check(asked: &Requirements, trajectory: &Trajectory, ledger: &mut 
             momentum.at_most(found.abs(), momentum_max, None, time_s);
             if let Some(interval) = trajectory.intervals().get(k) {
                 let given = interval.wheel_torques_n_m[index];
-                torque.at_most(given.abs(), most, None, time_s);
-                expected += given * (asked.horizon.time_s(k + 1) - asked.horizon.time_s(k));
+                let gained = given * (asked.horizon.time_s(k + 1) - asked.horizon.time_s(k));
+                let friction = if failed { 0.0 } else { friction };
+                for stored in [found, found + gained] {
+                    torque.at_most((given + friction * stored).abs(), most, None, time_s);
+                }
+                expected += gained;
             }
         }
         ledger.add_of(mismatch, &subject);

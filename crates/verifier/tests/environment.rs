@@ -44,6 +44,8 @@ fn wheel(axis: [f64; 3]) -> Wheel {
         torque_max_n_m: 1.0,
         steady_power_w: None,
         initial_momentum_n_m_s: None,
+        inertia_kg_m2: None,
+        viscous_friction_n_m_s: None,
         failed: false,
     }
 }

@@ -270,6 +270,16 @@ impl Coordinates {
     /// The state at a time in these coordinates, of a motion of the longest duration; joint accelerations that
     /// are states are zero, and wheels have what they have at the start.
     pub(crate) fn of_free_floating_state(&self, state: &State<f64>, time: f64) -> Vec<f64> {
+        self.of_state_and_wheels(state, &self.wheel_set.at_start(), time)
+    }
+
+    /// The same where the wheels that work store these shares of the most that they can.
+    pub(crate) fn of_state_and_wheels(
+        &self,
+        state: &State<f64>,
+        shares: &[f64],
+        time: f64,
+    ) -> Vec<f64> {
         let mut x = match self.formulation {
             Formulation::Full => state.to_vec(),
             Formulation::Reduced => {
@@ -278,7 +288,7 @@ impl Coordinates {
             }
         };
         x.resize(self.joints_end(), 0.0);
-        x.extend(self.wheel_set.at_start());
+        x.extend(shares);
         if !self.momentum().is_empty() {
             let of_wheels = state.attitude.to_inertial(&self.wheel_momentum(&x));
             let momentum = self.system.inertial_angular_momentum(state) + of_wheels;

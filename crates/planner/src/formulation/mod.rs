@@ -82,7 +82,6 @@ impl FormulatedManeuver {
                 state_bounds.upper[acceleration] = limits.acceleration_max_rad_s2;
             }
         }
-        let wheels = coordinates.wheel_set().working();
         state_bounds.lower[coordinates.wheels()].fill(-1.0);
         state_bounds.upper[coordinates.wheels()].fill(1.0);
         let counts = scenario.system().radians_a_unit();
@@ -92,7 +91,7 @@ impl FormulatedManeuver {
                 true => limits.jerk_max_rad_s3,
                 false => limits.acceleration_max_rad_s2,
             })
-            .chain(wheels.iter().map(|wheel| wheel.rate_max))
+            .chain(coordinates.wheel_set().rate_bounds())
             .collect();
 
         let dynamics = coordinates.clone();
@@ -105,7 +104,10 @@ impl FormulatedManeuver {
         let path = (coordinates.clone(), clearances.clone(), cones.clone());
         let path_bounds = joined(clearances.bounds(), cones.bounds());
         let loads = Loads::new(scenario);
-        let stage_bounds = stage_limits.bounds(&coordinates, limits, (&clearances, &loads, &cones));
+        let stage_bounds = joined(
+            stage_limits.bounds(&coordinates, limits, (&clearances, &loads, &cones)),
+            coordinates.wheel_set().motor_bounds(),
+        );
         let kept = (clearances, loads, cones);
         let within = (stage_limits.clone(), coordinates.clone(), kept);
         if let (Some(index), Some(free)) = (coordinates.duration(), scenario.free_duration()) {
@@ -149,7 +151,11 @@ impl FormulatedManeuver {
             .stage_constraints(stage_bounds, move |x, u, h| {
                 let (stage_limits, coordinates, (clearances, loads, cones)) = &within;
                 let h = h * coordinates.duration_share(x);
-                stage_limits.values(coordinates, (clearances, loads, cones), (x, u), h)
+                let mut values =
+                    stage_limits.values(coordinates, (clearances, loads, cones), (x, u), h);
+                let wheels = (&x[coordinates.wheels()], coordinates.wheel_rates(u));
+                values.extend(coordinates.wheel_set().motor_torques(wheels, h));
+                values
             })
             .terminal_constraints(end.bounds(), move |x| end.values(x));
         // The paper transcribes all states, and which ones there are decides where its guess leads.

@@ -1,13 +1,14 @@
 //! Targets on the way, as the optimizer is told them: weights of their errors at the nodes from arrival to
 //! departure, so large that they are met to far below their tolerances, as the end is.
 //!
-//! On a grid whose nodes are elsewhere, a waypoint is asked of the nearest ones. The base's rate needs no weight:
-//! a slew has no angular momentum, so the base rests where the joints do.
+//! On a grid whose nodes are elsewhere, a waypoint is asked of the nearest ones. The base's rate needs a weight only
+//! where wheels turn it: otherwise the base rests where the joints do.
 
 use righting_multibody::Quaternion;
 use righting_ocp::{Expr, StepTime};
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
+use righting_scenario::wheels::any_works;
 
 use super::{Coordinates, counted, sum_of_squares};
 use crate::scaling::WaypointWeights;
@@ -20,6 +21,8 @@ const TIE: f64 = 1e-6;
 pub(super) struct Waypoints {
     stops: Vec<Stop>,
     weights: WaypointWeights,
+    /// Whether the base may turn while the joints rest.
+    has_wheels: bool,
     /// What a unit of each joint's coordinate counts, rad.
     counts: Vec<f64>,
 }
@@ -44,6 +47,7 @@ impl Waypoints {
         Self {
             stops: stops.collect(),
             weights: WaypointWeights::of(scenario),
+            has_wheels: any_works(scenario.wheels()),
             counts: scenario.system().radians_a_unit(),
         }
     }
@@ -61,7 +65,11 @@ impl Waypoints {
                 let of_joints = |values: &[Expr]| sum_of_squares(&counted(values, &self.counts));
                 let rates = of_joints(coordinates.joint_rates(x));
                 let accelerations = of_joints(coordinates.acceleration_states(x));
-                cost += (rates + accelerations) * self.weights.joint_rate;
+                cost += (rates + accelerations) * self.weights.rate;
+                if self.has_wheels {
+                    let rate = coordinates.free_floating_state(x).angular_rate;
+                    cost += sum_of_squares(rate.as_slice()) * self.weights.rate;
+                }
             }
             let is_after_arrival = begins + half - stop.arrival;
             let is_before_departure = half + stop.departure - begins;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 use righting_multibody::External;
+use righting_ocp::ComponentBounds;
 use righting_scalar::Scalar;
 use righting_scenario::scenario::Scenario;
 use righting_scenario::wheels::{Wheel, reaction, stored_at_start};
@@ -28,8 +29,10 @@ pub(crate) struct Working {
     pub(crate) full: Vector3<f64>,
     /// The length of that.
     pub(crate) momentum_max: f64,
-    /// How fast its share can change.
+    /// How fast its share can change where it stores nothing.
     pub(crate) rate_max: f64,
+    /// How fast friction lets it fall, as a share of the share.
+    friction: f64,
     /// Its share at the start.
     at_start: f64,
 }
@@ -41,8 +44,22 @@ impl Working {
             full: Vector3::from(wheel.axis) * momentum_max,
             momentum_max,
             rate_max: wheel.torque_max_n_m / momentum_max,
+            friction: wheel.friction_1_s(),
             at_start: wheel.initial_momentum_n_m_s / momentum_max,
         }
+    }
+}
+
+impl Working {
+    /// The least and the largest rate of its share in a step of length `step_s` that its motor gives.
+    fn rates(&self, share: f64, step_s: f64) -> [f64; 2] {
+        let most = |share: f64| {
+            let left = self.rate_max - self.friction * share;
+            left.min(left / (1.0 + self.friction * step_s))
+        };
+        // A motor that does not overcome friction lets the wheel fall.
+        let (least, most) = (-most(-share), most(share));
+        [least.min(most), most.max(least)]
     }
 }
 
@@ -62,7 +79,7 @@ impl Wheels {
     }
 
     /// The shares at the start.
-    pub(super) fn at_start(&self) -> Vec<f64> {
+    pub(crate) fn at_start(&self) -> Vec<f64> {
         self.working.iter().map(|wheel| wheel.at_start).collect()
     }
 
@@ -109,8 +126,37 @@ impl Wheels {
     pub(crate) fn keep_within(&self, shares: &[f64], rates: &mut [f64], step_s: f64) {
         for ((rate, share), wheel) in rates.iter_mut().zip(shares).zip(&*self.working) {
             let reached = (share + step_s * *rate).clamp(-1.0, 1.0);
-            *rate = ((reached - share) / step_s).clamp(-wheel.rate_max, wheel.rate_max);
+            let [least, most] = wheel.rates(*share, step_s);
+            *rate = ((reached - share) / step_s).clamp(least, most);
         }
+    }
+
+    /// Bounds of the rates: whatever the wheels store.
+    pub(super) fn rate_bounds(&self) -> impl Iterator<Item = f64> {
+        self.working.iter().map(|wheel| wheel.rate_max + wheel.friction)
+    }
+
+    /// Bounds of [`motor_torques`](Self::motor_torques).
+    pub(super) fn motor_bounds(&self) -> ComponentBounds {
+        let limited = self.with_friction().count();
+        ComponentBounds::symmetric(&vec![1.0; 2 * limited])
+    }
+
+    /// The torques of the motors of wheels with friction at both ends of a step of length `h`, as shares of their limits;
+    /// in between they are linear.
+    pub(super) fn motor_torques<T: Scalar>(&self, (shares, rates): (&[T], &[T]), h: T) -> Vec<T> {
+        let limited = self.with_friction();
+        let torques = limited.flat_map(|(place, wheel)| {
+            let (share, rate) = (shares[place], rates[place]);
+            [share, share + h * rate]
+                .map(|share| (rate + share * wheel.friction) * wheel.rate_max.recip())
+        });
+        torques.collect()
+    }
+
+    /// The wheels whose motors have friction to overcome, by their place among those that work.
+    fn with_friction(&self) -> impl Iterator<Item = (usize, &Working)> {
+        self.working.iter().enumerate().filter(|(_, wheel)| wheel.friction > 0.0)
     }
 
     /// What acts from outside, and what the wheels do that have so much in store (body axes) and whose shares have

@@ -3,6 +3,8 @@
 /// After a success, a step towards harder values: so much of a quantity that is harder when
 /// smaller, and its inverse of the other kind. Short enough for a plan to be a start for the next.
 const HARDER: f64 = 0.75;
+/// After a success where it was said to be, so much of the resolution: rounded, it is within it.
+const NEXT: f64 = 0.9;
 /// After a failure without any success, a step towards easier values.
 const EASIER: f64 = 2.0;
 
@@ -33,9 +35,14 @@ pub(super) struct Line {
 /// harder ones until one fails, and halves what lies between. So every value tried between the
 /// easiest success and the last one succeeded too; of values that were not tried nothing is known,
 /// since what is harder need not fail.
+///
+/// Where it is said what to aim at, the search begins there: where that succeeds, it goes on by
+/// nearly the resolution and then twice as far each time, and where it fails, to the first value.
 #[derive(Clone, Debug)]
 pub(super) struct Frontier {
     line: Line,
+    /// Where the edge is said to be, and is looked for first.
+    aim: Option<f64>,
     /// The hardest success.
     pub(super) pass: Option<f64>,
     /// The easiest failure.
@@ -43,8 +50,12 @@ pub(super) struct Frontier {
 }
 
 impl Frontier {
-    pub(super) fn new(line: Line) -> Self {
-        Self { line, pass: None, fail: None }
+    pub(super) fn new(line: Line, aim: Option<f64>) -> Self {
+        let mut frontier = Self { line, aim: None, pass: None, fail: None };
+        // On the easy side of it, by half the resolution.
+        let aim = aim.map(|aim| frontier.shifted(aim, -0.5));
+        frontier.aim = aim.filter(|aim| frontier.is_on_the_way(*aim));
+        frontier
     }
 
     pub(super) fn record(&mut self, value: f64, succeeded: bool) {
@@ -57,10 +68,21 @@ impl Frontier {
     /// The value to try next; none once the frontier is as narrow as asked or an end is reached.
     pub(super) fn next(&self) -> Option<f64> {
         match (self.pass, self.fail) {
-            (None, None) => Some(self.line.first),
+            (None, None) => Some(self.aim.unwrap_or(self.line.first)),
+            (None, Some(fail)) if self.aim == Some(fail) => Some(self.line.first),
             (None, Some(fail)) => self.easier(fail),
+            (Some(pass), None) => self.beyond_aim(pass).or_else(|| self.harder(pass, None)),
             (Some(pass), fail) => self.harder(pass, fail),
         }
+    }
+
+    /// Where to go on from a success at the aim or beyond it: as far again as it is from there, and no farther than a step.
+    fn beyond_aim(&self, pass: f64) -> Option<f64> {
+        let aim = self.aim?;
+        let gone = (pass - aim).abs() / self.resolution_at(pass);
+        let next = self.shifted(pass, gone.max(NEXT));
+        let step = self.harder(pass, None)?;
+        ((next - pass).abs() < (step - pass).abs()).then_some(next)
     }
 
     fn easier(&self, fail: f64) -> Option<f64> {
@@ -74,11 +96,8 @@ impl Frontier {
     }
 
     fn harder(&self, pass: f64, fail: Option<f64>) -> Option<f64> {
-        let Line { hardest, resolution, .. } = self.line;
-        let resolution = match resolution {
-            Resolution::Share(share) => share * pass,
-            Resolution::Absolute(width) => width,
-        };
+        let hardest = self.line.hardest;
+        let resolution = self.resolution_at(pass);
         let (step, end) = match self.is_harder_when_smaller() {
             true => (pass * HARDER - pass, hardest - pass),
             false => (pass / HARDER - pass, hardest - pass),
@@ -96,6 +115,26 @@ impl Frontier {
             return Some(hardest);
         }
         Some(round(pass + shift, resolution))
+    }
+
+    /// A value that is harder by so many times the resolution.
+    fn shifted(&self, value: f64, by: f64) -> f64 {
+        let resolution = self.resolution_at(value);
+        let sign = if self.is_harder_when_smaller() { -1.0 } else { 1.0 };
+        round(value + sign * by * resolution, resolution)
+    }
+
+    fn resolution_at(&self, value: f64) -> f64 {
+        match self.line.resolution {
+            Resolution::Share(share) => share * value,
+            Resolution::Absolute(width) => width,
+        }
+    }
+
+    /// Whether a value lies between the first and the hardest.
+    fn is_on_the_way(&self, value: f64) -> bool {
+        let Line { first, hardest, .. } = self.line;
+        first.min(hardest) < value && value < first.max(hardest)
     }
 
     fn is_harder_when_smaller(&self) -> bool {
@@ -121,7 +160,15 @@ mod tests {
 
     /// The frontier and every value tried on the way.
     fn search(line: Line, succeeds: impl Fn(f64) -> bool) -> (Frontier, Vec<f64>) {
-        let mut frontier = Frontier::new(line);
+        search_at(line, None, succeeds)
+    }
+
+    fn search_at(
+        line: Line,
+        aim: Option<f64>,
+        succeeds: impl Fn(f64) -> bool,
+    ) -> (Frontier, Vec<f64>) {
+        let mut frontier = Frontier::new(line, aim);
         let mut tried = Vec::new();
         while let Some(value) = frontier.next() {
             assert!(tried.len() < 60 && !tried.contains(&value), "{tried:?} {value}");
@@ -170,6 +217,26 @@ mod tests {
         let (frontier, tried) =
             search(DURATIONS, |value| value >= 10.0 || (4.0..7.0).contains(&value));
         assert!((10.0..10.2).contains(&frontier.pass.unwrap()), "{tried:?}");
+    }
+
+    #[test]
+    fn an_aim_that_is_right_takes_two_tries_and_a_wrong_one_is_left() {
+        let (frontier, tried) = search_at(DURATIONS, Some(8.77), |value| value >= 8.77);
+        assert_eq!(tried, [8.81, 8.73]);
+        assert_eq!((frontier.pass, frontier.fail), (Some(8.81), Some(8.73)));
+        let (_, tried) = search_at(DURATIONS, Some(9.0), |value| value >= 8.77);
+        assert_eq!(tried.len(), 5, "{tried:?}");
+        for aim in [3.0, 8.0, 9.5, 25.0, 29.99, 0.31] {
+            let (frontier, tried) = search_at(DURATIONS, Some(aim), |value| value >= 8.77);
+            let (pass, fail) = (frontier.pass.unwrap(), frontier.fail.unwrap());
+            assert!(
+                fail < 8.77 && 8.77 <= pass && pass - fail <= 0.0101 * pass,
+                "{aim}: {tried:?}"
+            );
+        }
+        // Beyond the ends it says nothing.
+        let (_, tried) = search_at(DURATIONS, Some(31.0), |value| value >= 8.77);
+        assert_eq!(tried[0], 30.0);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use righting_results::solution::{IterationRecord, Status, Terminal};
 use righting_scenario::file::{self, Guess, LowDiscrepancyStarts};
 use righting_scenario::scenario::Scenario;
 
+use super::fastest::fastest;
 use super::{Progress, Quantity, ReachError, ReachSettings, Reached, StartedFrom, Try};
 use crate::planner::Planner;
 
@@ -20,6 +21,8 @@ pub(super) struct Trials<'a> {
     goal_deg_s: Option<f64>,
     watch: &'a mut dyn FnMut(Progress<'_>) -> Control,
     pub(super) tries: Vec<Try>,
+    /// The plan that chose its duration, and that, s.
+    fastest: Option<(f64, Reached)>,
     /// Each harder than the one before.
     pub(super) successes: Vec<(f64, Reached)>,
     /// The easiest one.
@@ -42,11 +45,31 @@ impl<'a> Trials<'a> {
             goal_deg_s: bound_deg_s.map(|bound| bound * (1.0 + settings.within_percent / 100.0)),
             watch,
             tries: Vec::new(),
+            fastest: None,
             successes: Vec::new(),
             failure: None,
             impossible: Vec::new(),
             is_interrupted: false,
         }
+    }
+
+    /// Plans the maneuver with a duration that the plan chooses, where that can be done; gives that duration, s.
+    pub(super) fn plan_fastest(&mut self) -> Result<Option<f64>, ReachError> {
+        if Impossible::of(self.scenario).is_some() {
+            return Ok(None);
+        }
+        let watch = &mut *self.watch;
+        let value = self.scenario.horizon().duration_s;
+        let mut stop =
+            watch(Progress::Trying { value, start: StartedFrom::Fastest }) == Control::Stop;
+        let found = fastest(self.scenario, &mut |record| {
+            stop |= watch(Progress::Iteration(record)) == Control::Stop;
+            if stop { Control::Stop } else { Control::Continue }
+        })?;
+        self.is_interrupted |= stop;
+        let chosen_s = |reached: &Reached| reached.planned.solution.duration_s;
+        self.fastest = found.and_then(|reached| Some((chosen_s(&reached)?, reached)));
+        Ok(self.fastest.as_ref().map(|(duration_s, _)| *duration_s))
     }
 
     /// Whether the maneuver with this duration, s, or angle, deg, succeeds; none if the caller
@@ -68,10 +91,13 @@ impl<'a> Trials<'a> {
             self.impossible.push(reason);
             return Ok(Some(false));
         }
-        let neighbor = self.successes.last().map(|(value, _)| *value);
+        let nearest = self.successes.last().or(self.fastest.as_ref());
+        let neighbor = nearest.map(|(value, _)| *value);
         let mut starts = vec![StartedFrom::Cold];
         if neighbor.is_some() {
-            starts.insert(0, StartedFrom::Neighbor);
+            let is_success = !self.successes.is_empty();
+            let warm = if is_success { StartedFrom::Neighbor } else { StartedFrom::Fastest };
+            starts.insert(0, warm);
         }
         if self.settings.starts > 0 {
             starts.push(StartedFrom::LowDiscrepancy);
@@ -175,8 +201,9 @@ impl<'a> Trials<'a> {
             stop |= watch(Progress::Iteration(record)) == Control::Stop;
             if stop { Control::Stop } else { Control::Continue }
         };
-        let planned = match (start, self.successes.last()) {
-            (StartedFrom::Neighbor, Some((_, neighbor))) => {
+        let nearest = self.successes.last().or(self.fastest.as_ref());
+        let planned = match (start, nearest) {
+            (StartedFrom::Neighbor | StartedFrom::Fastest, Some((_, neighbor))) => {
                 let mut planner =
                     Planner::new().without_remedies().warm_start(&neighbor.planned.trajectory);
                 planner.plan(scenario, &mut on_iteration)?
