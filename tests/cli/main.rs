@@ -45,4 +45,5 @@ mod unsafe_blocks;
 mod usage;
 mod verify;
 mod warm_start;
+mod wheel_page;
 mod witnesses;

@@ -8,8 +8,7 @@ use crate::abilities::Abilities;
 use crate::detumble::rate_bound_rad_s;
 use crate::impossible::Impossible;
 
-/// What an arm can do, and of a scenario's arm what is asked of it. Joints are counted from one, vectors are in
-/// body axes.
+/// What an arm can do, and what a scenario asks. Joints are counted from one, vectors are in body axes.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Righting explain")]
 pub struct Explanation<'a> {

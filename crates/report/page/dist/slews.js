@@ -1,4 +1,4 @@
-/*! Generated from sources 4b91e6eff54f90ae0096f0ec1438620363cde063ff63394aecdb5970f57b6fbe */
+/*! Generated from sources e93b8172fdaba48e0df46362b5824c90b9d068e8cec3bb63e38f1140e1686482 */
 /*!
 three
 
