@@ -1,4 +1,4 @@
-/*! Generated from sources e93b8172fdaba48e0df46362b5824c90b9d068e8cec3bb63e38f1140e1686482 */
+/*! Generated from sources 96b3d290685a0839e488c6aa7c6a27ee1c93167f220065bb586aca3a43cec411 */
 /*!
 three
 
