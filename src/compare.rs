@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use righting_analysis::PowerProfile;
-use righting_report::{ComparedPlan, compare_html, comparison_table};
-use righting_results::LimitRecord;
+use righting_report::{ComparedNumbers, ComparedPlan, compare_html, comparison_table};
 use righting_scenario::Error;
 use righting_verifier::Verified;
 use serde::Serialize;
@@ -44,28 +43,8 @@ struct Printed<'a> {
 #[derive(Serialize)]
 struct PrintedPlan<'a> {
     folder: &'a Path,
-    scenario: &'a str,
-    system: &'a str,
-    joints: usize,
-    verified: bool,
-    attitude_error: f64,
-    attitude_error_deg: f64,
-    angular_rate_deg_s: f64,
-    joint_rate_deg_s: f64,
-    duration_s: f64,
-    effort_rad2_s3: f64,
-    peak_torque_n_m: f64,
-    peak_torque_joint: String,
-    peak_power_w: f64,
-    energy_j: f64,
-    smallest_margins: Vec<PrintedMargin<'a>>,
-}
-
-#[derive(Serialize)]
-struct PrintedMargin<'a> {
-    margin: f64,
     #[serde(flatten)]
-    limit: &'a LimitRecord,
+    numbers: ComparedNumbers<'a>,
 }
 
 /// Reads, checks, compares, writes and prints.
@@ -92,9 +71,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => None,
     };
     if arguments.json {
-        let printed =
-            arguments.folders.iter().zip(&plans).map(|(folder, plan)| printed(folder, plan));
-        let plans = printed.collect();
+        let numbered = arguments.folders.iter().zip(&plans);
+        let plans = numbered
+            .map(|(folder, plan)| PrintedPlan { folder, numbers: ComparedNumbers::of(plan) })
+            .collect();
         output::print_json(&Printed { schema: "righting.compare/1", plans, page })?;
     } else {
         let page = page.map(|page| format!("\n{}\n", page.display())).unwrap_or_default();
@@ -102,33 +82,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let failed = verified.iter().find_map(|plan| Failure::of_verification(&plan.solution));
     failed.map_or(Ok(()), Err)
-}
-
-fn printed<'a>(folder: &'a Path, plan: &ComparedPlan<'a>) -> PrintedPlan<'a> {
-    let (peak_torque_n_m, joint) = plan.peak_torque_n_m();
-    let system = plan.scenario.system();
-    let terminal = &plan.solution.terminal;
-    let margins = plan.smallest_margins().into_iter();
-    PrintedPlan {
-        folder,
-        scenario: plan.scenario.name(),
-        system: &system.name,
-        joints: system.joint_count(),
-        verified: plan.solution.verification.passed,
-        attitude_error: terminal.attitude_error,
-        attitude_error_deg: terminal.attitude_error_deg,
-        angular_rate_deg_s: terminal.angular_rate_deg_s,
-        joint_rate_deg_s: terminal.joint_rate_deg_s,
-        duration_s: plan.profile.duration_s(),
-        effort_rad2_s3: plan.profile.effort_rad2_s3(),
-        peak_torque_n_m,
-        peak_torque_joint: system.names.joint(joint),
-        peak_power_w: plan.peak_power_w(),
-        energy_j: plan.energy_j(),
-        smallest_margins: margins
-            .map(|limit| PrintedMargin { margin: limit.margin(), limit })
-            .collect(),
-    }
 }
 
 /// The last parts of the folders, or, where two would be the same, all of their paths.

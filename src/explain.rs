@@ -1,24 +1,22 @@
 //! `righting explain`: what an arm can do at all.
 
-mod printed;
 mod sentences;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use righting_analysis::Abilities;
+use righting_analysis::{Abilities, Explanation};
 use righting_report::turn_rates_svg;
 use righting_results::{SOLUTION_FILE, Solution};
 use righting_scenario::json::FileKind;
-use righting_scenario::scenario::DEFAULT_CLEARANCE_M;
-use righting_scenario::{CollisionModel, Maneuver, Scenario, SystemOrScenario};
+use righting_scenario::{Maneuver, Scenario, SystemOrScenario};
+use schemars::schema_for;
+use serde_json::Value;
 
 use crate::failure::Failure;
 use crate::figures::Formats;
 use crate::output;
 use crate::output_folder::OutputFolder;
-use printed::printed;
-pub use printed::schema;
 use sentences::describe;
 
 const JSON_FILE: &str = "explain.json";
@@ -46,6 +44,11 @@ pub struct Arguments {
     pub json: bool,
 }
 
+/// The JSON Schema (draft 2020-12) of explain.json.
+pub fn schema() -> Value {
+    schema_for!(Explanation<'_>).to_value()
+}
+
 /// Reads, looks, writes and prints.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let writer = arguments.formats.writer()?;
@@ -56,17 +59,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let folder = arguments.out.as_ref().map(|out| OutputFolder::open(out)).transpose()?;
     let abilities = match scenario {
-        Some(scenario) => {
-            let start = &scenario.initial().joint_angles_rad;
-            Abilities::of(system, start, scenario.collision())
-        }
-        None => {
-            let middle = system.joint_angles_at(&vec![0.5; system.joint_count()]);
-            Abilities::of(system, &middle, &CollisionModel::new(system, DEFAULT_CLEARANCE_M))
-        }
+        Some(scenario) => Abilities::of_scenario(scenario),
+        None => Abilities::of_system(system),
     };
-    let printed = printed(system, scenario, &abilities);
-    let json = output::to_json(&printed)?;
+    let explanation = Explanation::new(system, scenario, &abilities);
+    let json = output::to_json(&explanation)?;
     let mut files = Vec::new();
     if let Some(folder) = &folder {
         files.push(folder.write(JSON_FILE, json.as_bytes())?);
@@ -81,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.json {
         output::print(&json)
     } else {
-        output::print(&describe(&printed, &system.names, &abilities, &files))
+        output::print(&describe(&explanation, &system.names, &abilities, &files))
     }
 }
 

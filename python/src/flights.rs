@@ -36,10 +36,11 @@ impl Flights {
     fn of_ends(
         &self,
         py: Python<'_>,
-        end: fn(&Flight) -> End,
+        end: fn(&Flight) -> Option<End>,
         value: fn(End) -> f64,
     ) -> Py<PyArray1<f64>> {
-        vector(py, self.0.iter().map(|flight| value(end(flight)).to_degrees()).collect())
+        let degrees = |flight| end(flight).map_or(f64::NAN, |end| value(end).to_degrees());
+        vector(py, self.0.iter().map(degrees).collect())
     }
 }
 
@@ -52,13 +53,13 @@ impl Flights {
     /// Angle between the attitude at the end and the target with what is done about it, deg.
     #[getter]
     fn final_error_deg(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.of_ends(py, |flight| flight.flown, |end| end.error_rad)
+        self.of_ends(py, |flight| Some(flight.flown), |end| end.error_rad)
     }
 
     /// Angular rate of the base at the end with what is done about it, deg/s.
     #[getter]
     fn final_rate_deg_s(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.of_ends(py, |flight| flight.flown, |end| end.rate_rad_s)
+        self.of_ends(py, |flight| Some(flight.flown), |end| end.rate_rad_s)
     }
 
     /// Angle between the attitude at the end and the target, open loop, deg.
@@ -76,7 +77,7 @@ impl Flights {
     /// How long replans took, s: all of all flights.
     #[getter]
     fn replan_s(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        let times = self.0.iter().flat_map(|flight| &flight.replans);
+        let times = self.0.iter().flat_map(|flight| &flight.log.replans);
         vector(py, times.map(|time| time.as_secs_f64()).collect())
     }
 

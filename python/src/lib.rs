@@ -8,6 +8,7 @@
 mod argument;
 mod check;
 mod columns;
+mod comparison;
 mod envelope;
 mod export;
 mod failure;
@@ -38,6 +39,8 @@ mod _righting {
 
     #[pymodule_export]
     use crate::check::Check;
+    #[pymodule_export]
+    use crate::comparison::{Comparison, compare};
     #[pymodule_export]
     use crate::envelope::{Envelope, Envelopes, envelope};
     #[pymodule_export]

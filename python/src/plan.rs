@@ -342,9 +342,12 @@ impl Plan {
     ///     How many, and the seed of all draws.
     /// mode
     ///     What is done about it: ``"replan"``, the rest of the maneuver is planned anew time and again; ``"feedback"``,
-    ///     the gains of the plan correct every step of a slew; ``"open-loop"``, nothing.
-    /// period_s, deadline_ms
-    ///     Time from one replan to the next; a replan that takes longer than the deadline is missed.
+    ///     the gains of the plan correct every step of a slew; ``"both"``; ``"open-loop"``, nothing.
+    /// period_s, deadline_ms, delay_s
+    ///     Time from one replan to the next; a replan that takes longer than the deadline is missed. Time from a
+    ///     measurement to the first step of the replan that it leads to.
+    /// estimate_masses
+    ///     Whether replans are made with the masses that the flight has shown, rather than the plan's.
     /// mass_percent, inertia_percent, center_m, mount_m
     ///     By how much masses, inertias, centers of mass and the mount are off, at most, either way.
     /// attitude_noise_deg, joint_noise_deg, joint_rate_noise_deg_s
@@ -356,8 +359,8 @@ impl Plan {
     ///     The plan was not verified.
     /// InputError
     ///     An argument is not a number of its range.
-    #[pyo3(signature = (flights=100, *, seed=0, mode="replan", period_s=1.0, deadline_ms=None, mass_percent=10.0,
-        inertia_percent=10.0, center_m=0.0, mount_m=0.0, attitude_noise_deg=0.0, joint_noise_deg=0.0,
+    #[pyo3(signature = (flights=100, *, seed=0, mode="replan", period_s=1.0, deadline_ms=None, delay_s=0.0,
+        estimate_masses=true, mass_percent=10.0, inertia_percent=10.0, center_m=0.0, mount_m=0.0, attitude_noise_deg=0.0, joint_noise_deg=0.0,
         joint_rate_noise_deg_s=0.0))]
     #[allow(clippy::too_many_arguments)] // Each has a name where it is called.
     fn fly(
@@ -368,6 +371,8 @@ impl Plan {
         mode: &str,
         period_s: f64,
         deadline_ms: Option<f64>,
+        delay_s: f64,
+        estimate_masses: bool,
         mass_percent: f64,
         inertia_percent: f64,
         center_m: f64,
@@ -379,10 +384,11 @@ impl Plan {
         let control = match mode {
             "replan" => Control::Replan,
             "feedback" => Control::Feedback,
+            "both" => Control::Both,
             "open-loop" => Control::OpenLoop,
             other => {
                 let found = format!("{other:?}");
-                let expected = "\"replan\", \"feedback\" or \"open-loop\"";
+                let expected = "\"replan\", \"feedback\", \"both\" or \"open-loop\"";
                 return Err(Failure::Argument { name: "mode", found, expected }.into());
             }
         };
@@ -402,7 +408,10 @@ impl Plan {
             },
             period_s: above_zero("period_s", period_s)?,
             deadline: deadline_ms.map(|ms| seconds("deadline_ms", ms / 1e3)).transpose()?,
+            delay_s: not_negative("delay_s", delay_s)?,
+            estimates_masses: estimate_masses,
             seed,
+            ..Settings::default()
         };
         Ok(Flights::of(py, self.proven()?, settings, flights)?)
     }

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use righting_analysis::Explanation;
 use righting_scenario::json::FileKind;
 
 use crate::failure::{Failure, Outcome};
@@ -96,6 +97,14 @@ impl Scenario {
     #[getter]
     fn sha256(&self) -> String {
         self.0.resolved().sha256()
+    }
+
+    /// What the arm can do to the base from the posture at the start, as `System.explain`, and under `maneuver` what is
+    /// asked of it: whether it is `possible`, else why not, and first estimates of the time of a slew (`estimated_s`)
+    /// or the bound of a detumble (`bound_deg_s`). Nothing is planned.
+    fn explain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let explanation = py.detach(|| Explanation::of_scenario(&self.0));
+        to_python(py, &explanation)
     }
 
     /// The scenario as a file holds it, the system inline and every default filled in. To vary it, change the

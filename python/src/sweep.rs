@@ -42,14 +42,15 @@ pub fn plan_sweep(
 }
 
 /// Has what is missing of a shard of a planned sweep done by worker processes, which `command` starts; how many cases
-/// were recorded. `on_record` is called after each with whether it succeeded, how many are done and how many there were
-/// to do.
+/// were recorded. `keep_plans` keeps the plans of successful cases in the folder's `plans`. `on_record` is called after
+/// each case with whether it succeeded, how many are done and how many there were to do.
 #[pyfunction]
 pub fn run_shard(
     py: Python<'_>,
     out: PathBuf,
     shard: &str,
     jobs: Option<usize>,
+    keep_plans: bool,
     command: Vec<String>,
     on_record: Option<Py<PyAny>>,
 ) -> PyResult<usize> {
@@ -63,6 +64,7 @@ pub fn run_shard(
     let ran = py.detach(|| {
         let sweep = folder.sweep()?;
         let run = ShardRun::open(&folder, &sweep, shard)?;
+        let run = if keep_plans { run.keeping_plans(folder.plans()) } else { run };
         watched(run, jobs, &command, on_record.as_ref())
     });
     Ok(ran?)

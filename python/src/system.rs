@@ -1,12 +1,15 @@
+use std::path::PathBuf;
+
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
-use righting_scenario::json::FileKind;
-use righting_scenario::{SystemFile, file};
+use pyo3::types::{PyDict, PyTuple};
+use righting_analysis::Explanation;
+use righting_scenario::json::{Document, FileKind};
+use righting_scenario::{SystemFile, file, import_urdf};
 
 use crate::failure::{Failure, Outcome};
 use crate::function::Function;
 use crate::input::{Input, named};
-use crate::json::to_python;
+use crate::json::{text_of, to_python};
 use crate::mechanics;
 
 /// A spacecraft and its arm, checked.
@@ -49,6 +52,39 @@ impl System {
     #[new]
     fn new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self::of(source)?)
+    }
+
+    /// The system that a robot's URDF file describes, its macros expanded.
+    ///
+    /// Parameters
+    /// ----------
+    /// file
+    ///     Path of the URDF file.
+    /// options
+    ///     What a URDF file does not say, as the fields of a scenario's `system_options`: `base`, the link that floats,
+    ///     or `on`, a mapping with the base that the robot's root link is fixed to, then with `mount_position_m` and
+    ///     `mount_rpy_deg` (roll, pitch, yaw); `acceleration_max_deg_s2`, and `acceleration_max_m_s2` for joints that
+    ///     slide, which URDF does not have; `rate_max_deg_s` and `speed_max_m_s` where the file has none; `tip`, the
+    ///     link at the end of the only arm that moves; `locked`, joints that are held, a mapping to deg or m;
+    ///     `dropped`, links that are left out; `point_masses` and `project_inertias`, for inertias that are missing or
+    ///     of no rigid body.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     Something is wrong with the robot or an option; `field` names the option.
+    /// FileError
+    ///     The file cannot be read.
+    #[staticmethod]
+    #[pyo3(signature = (file, **options))]
+    fn from_urdf(file: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let text = match options {
+            Some(options) => text_of(options)?,
+            None => "{}".to_owned(),
+        };
+        let imported = Document::parse(&file, &text, FileKind::Scenario)
+            .and_then(|document| import_urdf(&file, &document.decode()?));
+        Ok(Self(imported.map_err(Failure::of_input(FileKind::Scenario))?))
     }
 
     /// Name of the system.
@@ -129,6 +165,14 @@ impl System {
     /// center of mass, body axes, kg m², as a compiled function of the joint angles, rad.
     fn momentum_map(&self, py: Python<'_>) -> PyResult<Function> {
         Ok(py.detach(|| mechanics::momentum_map(&self.0.description.model))?)
+    }
+
+    /// What the arm can do to the base, from its middle posture: about which axes it turns it (`rank`, `only_axis`),
+    /// how fast (`loops`: `principal_axes` in body axes and `rates_deg_s` about them), joints that do not help, the
+    /// range of the whole system's `inertia`. Nothing is planned. The fields are those of `righting explain --json`.
+    fn explain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let explanation = py.detach(|| Explanation::of_system(&self.0.description));
+        to_python(py, &explanation)
     }
 
     /// The system as a file holds it.

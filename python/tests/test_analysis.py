@@ -105,6 +105,44 @@ def test_flights_with_replans_or_feedback_end_nearer_than_open_loop(scenarios: P
         assert raised.value.field == next(iter(wrong))
 
 
+def test_what_an_arm_can_do_is_explained_before_any_plan(scenarios: Path) -> None:
+    scenario = rt.Scenario(scenarios / "slew_4dof.json")
+    explained = scenario.explain()
+    assert explained["maneuver"]["possible"] and explained["maneuver"]["angle_deg"] == pytest.approx(20.0)
+    axes = np.array(explained["loops"]["principal_axes"])
+    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-12)
+    of_system = scenario.system.explain()
+    assert of_system["rank"] == 3 and "maneuver" not in of_system
+
+
+def test_plans_are_compared(plan: rt.Plan, scenarios: Path) -> None:
+    other = rt.solve(scenarios / "slew_2dof.json")
+    comparison = rt.compare([plan, other], ["four", "two"])
+    assert comparison.names == ["four", "two"]
+    four, two = comparison.numbers
+    assert (four["joints"], two["joints"]) == (4, 2) and four["verified"] and two["verified"]
+    assert four["peak_torque_n_m"] == pytest.approx(plan.power().peak_joint_torques_n_m.max(), rel=1e-12)
+    step_s = np.diff(plan.time_s)
+    effort = (plan.joint_accelerations_rad_s2**2).sum(axis=1) @ step_s
+    assert four["effort_rad2_s3"] == pytest.approx(effort, rel=1e-9)
+    assert "four" in str(comparison) and comparison.page().lstrip().lower().startswith("<!doctype html")
+    assert len(set(rt.compare([plan, plan]).names)) == 2
+    for plans, names, field in [([plan], None, "plans"), ([plan, other], ["a", "a"], "names")]:
+        with pytest.raises(rt.InputError) as raised:
+            rt.compare(plans, names)
+        assert raised.value.field == field
+
+
+def test_wheels_and_what_acts_from_outside_are_columns(scenarios: Path) -> None:
+    turned = rt.solve(scenarios / "wheels/slew_4dof_one_wheel_failed.json")
+    joints, wheels = turned.joint_count, turned.wheel_momenta_n_m_s.shape[1]
+    assert wheels > 0 and turned.wheel_torques_n_m.shape == (turned.steps, wheels)
+    # The momenta of the wheels are the integrals of their torques.
+    gained = turned.wheel_torques_n_m.T @ np.diff(turned.time_s)
+    assert np.diff(turned.wheel_momenta_n_m_s[[0, -1]], axis=0)[0] == pytest.approx(gained, abs=1e-9)
+    assert turned.joint_angles_rad.shape == (turned.steps + 1, joints)
+
+
 def test_an_archive_of_numpy_holds_the_arrays_of_the_plan(plan: rt.Plan, tmp_path: Path) -> None:
     file = tmp_path / "made/plan.npz"
     assert plan.export("npz", file) == [file]

@@ -104,3 +104,50 @@ def test_schemas_are_dictionaries() -> None:
     with pytest.raises(rt.InputError) as raised:
         rt.schema("nothing")
     assert raised.value.field == "file"
+
+
+URDF = """<robot name="arm">
+  <link name="foot"/>
+  <link name="upper"><inertial><origin xyz="0 0 0.3"/><mass value="6"/>
+    <inertia ixx="0.19" iyy="0.19" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="lower"><inertial><origin xyz="0 0 0.25"/><mass value="4"/>
+    <inertia ixx="0.09" iyy="0.09" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="yaw" type="revolute"><parent link="foot"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" velocity="0.3" effort="40"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0 0 0.6"/>
+    <axis xyz="0 1 0"/><limit lower="-2" upper="2" velocity="0.3" effort="20"/></joint>
+</robot>"""
+BUS = {"name": "bus", "mass_kg": 200.0, "inertia_kg_m2": np.diag([20.0, 18.0, 16.0]), "keep_out_radius_m": 0.3}
+
+
+def test_a_robot_is_read_from_urdf(tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(URDF)
+    system = rt.System.from_urdf(file, on=BUS, mount_position_m=[0, 0, 0.4], acceleration_max_deg_s2=10.0)
+    assert system.joint_names == ["yaw", "elbow"]
+    assert system.mass_kg == 210.0
+    assert rt.System(system.to_dict()).to_dict() == system.to_dict()
+    held = rt.System.from_urdf(file, on=BUS, locked={"yaw": 0.0}, acceleration_max_deg_s2=10.0)
+    assert held.joint_names == ["elbow"]
+    # The elbow's axis is y, and everything is symmetric about its plane.
+    assert np.abs(held.explain()["only_axis"]) == pytest.approx([0.0, 1.0, 0.0], abs=1e-9)
+
+
+def test_what_is_wrong_with_a_robot_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(URDF)
+    for options, field in [
+        ({"on": BUS}, "acceleration_max_deg_s2"),
+        ({"on": BUS, "acceleration_max_deg_s2": 0.0}, "acceleration_max_deg_s2"),
+        ({"base": "none"}, "base"),
+        ({"base": "foot", "speed": 1}, "speed"),
+        ({}, "base"),
+    ]:
+        with pytest.raises(rt.InputError) as raised:
+            rt.System.from_urdf(file, **options)
+        assert raised.value.field is not None and raised.value.field.endswith(field)
+    with pytest.raises(rt.FileError):
+        rt.System.from_urdf(tmp_path / "none.urdf", base="foot")
+    file.write_text(URDF.replace('<child link="lower"/>', '<child link="elsewhere"/>'))
+    with pytest.raises(rt.InputError, match="elsewhere"):
+        rt.System.from_urdf(file, on=BUS, acceleration_max_deg_s2=10.0)

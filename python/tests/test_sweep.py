@@ -115,3 +115,12 @@ def test_a_dask_cluster_runs_the_same_shards(
     names = sorted(file.name for file in (tmp_path / "records").iterdir())
     assert names == ["1-of-3.jsonl", "2-of-3.jsonl", "3-of-3.jsonl"]
     assert comparable(on_cluster) == comparable(results)
+
+
+def test_plans_are_kept_where_asked(angles: dict[str, object], results: rt.SweepResults, tmp_path: Path) -> None:
+    kept = rt.sweep(angles, tmp_path / "kept", jobs=2, keep_plans=True)
+    assert comparable(kept) == comparable(results)
+    plan = kept.plan(kept.columns["case_id"][0])
+    assert plan.verified and plan.objective == kept.columns["objective"][0]
+    with pytest.raises(rt.FileError):
+        results.plan(results.columns["case_id"][0])

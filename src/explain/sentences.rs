@@ -3,38 +3,37 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use righting_analysis::Abilities;
+use righting_analysis::explanation::{Asked, Inertia, Loops};
+use righting_analysis::{Abilities, Explanation};
 use righting_report::short;
 use righting_scenario::Names;
-
-use super::printed::{Asked, Inertia, Loops, Printed};
 
 /// An arm hardly turns its base about an axis that its loops turn it this much less about.
 const HARDLY: f64 = 0.1;
 
 /// All of it.
 pub fn describe(
-    printed: &Printed<'_>,
+    explanation: &Explanation<'_>,
     names: &Names,
     abilities: &Abilities,
     files: &[PathBuf],
 ) -> String {
-    let joints = if printed.joints == 1 { "joint" } else { "joints" };
-    let mut text = format!("{}: {} {joints}\n", printed.system, printed.joints);
+    let joints = if explanation.joints == 1 { "joint" } else { "joints" };
+    let mut text = format!("{}: {} {joints}\n", explanation.system, explanation.joints);
     let mut line = |name: &str, sentence: &str| {
         writeln!(text, "  {name:<9}{sentence}").expect("a string takes all that is written");
     };
-    if let Some(locked) = listed(&printed.locked_joints, names) {
+    if let Some(locked) = listed(&explanation.locked_joints, names) {
         line("locked", &format!("{locked} cannot move."));
     }
-    if let Some(idle) = listed(&printed.idle_joints, names) {
+    if let Some(idle) = listed(&explanation.idle_joints, names) {
         line("idle", &format!("{idle} can move, but nothing of it reaches the base."));
     }
-    line("axes", &about_axes(printed, names, abilities));
-    for (name, sentence) in about_loops(&printed.loops) {
+    line("axes", &about_axes(explanation, names, abilities));
+    for (name, sentence) in about_loops(&explanation.loops) {
         line(name, &sentence);
     }
-    let Inertia { smallest_kg_m2, largest_kg_m2, best_detumble_factor } = printed.inertia;
+    let Inertia { smallest_kg_m2, largest_kg_m2, best_detumble_factor } = explanation.inertia;
     line(
         "inertia",
         &format!(
@@ -45,7 +44,7 @@ pub fn describe(
             short(best_detumble_factor),
         ),
     );
-    if let (Some(asked), Some(name)) = (&printed.maneuver, printed.scenario) {
+    if let (Some(asked), Some(name)) = (&explanation.maneuver, explanation.scenario) {
         text.push_str(&format!("\n{name}: {}\n  {}\n", phrase(asked), verdict(asked)));
     }
     if !files.is_empty() {
@@ -57,11 +56,11 @@ pub fn describe(
     text
 }
 
-fn about_axes(printed: &Printed<'_>, names: &Names, abilities: &Abilities) -> String {
+fn about_axes(explanation: &Explanation<'_>, names: &Names, abilities: &Abilities) -> String {
     let axes = &abilities.axes;
-    match (printed.rank, &axes.effective_joints[..]) {
+    match (explanation.rank, &axes.effective_joints[..]) {
         (0, _) => "Nothing that this arm's joints do turns the base.".to_owned(),
-        (_, &[joint]) if printed.only_axis.is_none() => format!(
+        (_, &[joint]) if explanation.only_axis.is_none() => format!(
             "Only {} turns the base: its attitudes are a curve, about an axis that moves with it.",
             names.joint(joint)
         ),

@@ -46,4 +46,5 @@ mod unsafe_blocks;
 mod usage;
 mod verify;
 mod warm_start;
+mod wheel_page;
 mod witnesses;

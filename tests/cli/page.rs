@@ -137,6 +137,10 @@ fn the_page_reads_plots_gives_link_picture_and_video_and_helps() {
     for size in [[1400, 900], [390, 844], [844, 390]] {
         let mut page = Browser::open(&out.join("report.html"), size);
         assert_eq!(page.value("document.documentElement.scrollWidth <= innerWidth"), true);
+        let no_tool_is_cut_off = "(tools => [...tools.querySelectorAll('button')].every(button => \
+             button.getBoundingClientRect().right <= tools.getBoundingClientRect().right))\
+             (document.querySelector('#tools'))";
+        assert_eq!(page.value(no_tool_is_cut_off), true);
 
         // Values under the pointer, and the player's again when it has left.
         page.value("document.querySelector('.u-over').scrollIntoView({ block: 'end' })");

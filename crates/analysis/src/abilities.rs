@@ -1,6 +1,7 @@
 //! What an arm can do at all.
 
-use righting_scenario::{CollisionModel, SystemDescription};
+use righting_scenario::scenario::DEFAULT_CLEARANCE_M;
+use righting_scenario::{CollisionModel, Scenario, SystemDescription};
 
 use crate::detumble::inertia_range_kg_m2;
 use crate::holonomy::{TurnRates, TurnableAxes};
@@ -28,6 +29,18 @@ impl Abilities {
             rates: TurnRates::new(system, start_rad),
             inertia_range_kg_m2: inertia_range_kg_m2(system, collision),
         }
+    }
+
+    /// Of a system, with loops through the middle posture and the clearance that scenarios have by default.
+    pub fn of_system(system: &SystemDescription) -> Self {
+        let middle = system.joint_angles_at(&vec![0.5; system.joint_count()]);
+        Self::of(system, &middle, &CollisionModel::new(system, DEFAULT_CLEARANCE_M))
+    }
+
+    /// Of a scenario's system, with loops through the posture at its start.
+    pub fn of_scenario(scenario: &Scenario) -> Self {
+        let start = &scenario.initial().joint_angles_rad;
+        Self::of(scenario.system(), start, scenario.collision())
     }
 
     /// The most by which a detumble can divide a rate: that of a spin about the axis of the smallest inertia

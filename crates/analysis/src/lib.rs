@@ -1,6 +1,7 @@
 //! What an arm can do, before and after a plan.
 //!
 //! - [`abilities`]: about which axes it turns the base, how fast, and how much a detumble gains;
+//! - [`explanation`]: the same in numbers, as explain.json holds it, and whether a maneuver is possible;
 //! - [`envelope`]: all momenta and torques that the arm can give, beside reaction wheels;
 //! - [`detumble`]: the least angular rate that momentum leaves with the arm at rest;
 //! - [`holonomy`]: which rotations of the base the arm can make, and how fast;
@@ -27,6 +28,7 @@
 pub mod abilities;
 pub mod detumble;
 pub mod envelope;
+pub mod explanation;
 pub mod histories;
 pub mod holonomy;
 pub mod hull;
@@ -39,6 +41,7 @@ pub mod zonotope;
 
 pub use abilities::Abilities;
 pub use envelope::{Envelope, Envelopes, envelopes};
+pub use explanation::Explanation;
 pub use histories::Histories;
 pub use impossible::Impossible;
 pub use limited_loads::limited_loads;

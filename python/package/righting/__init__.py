@@ -17,6 +17,7 @@ from __future__ import annotations
 from righting._reach import reach
 from righting._righting import (
     Check,
+    Comparison,
     Envelope,
     Envelopes,
     Flights,
@@ -29,6 +30,7 @@ from righting._righting import (
     System,
     Verification,
     __version__,
+    compare,
     envelope,
     schema,
 )
@@ -46,6 +48,7 @@ from righting.errors import (
 
 __all__ = [
     "Check",
+    "Comparison",
     "Envelope",
     "Envelopes",
     "FileError",
@@ -66,6 +69,7 @@ __all__ = [
     "Verification",
     "VerificationError",
     "__version__",
+    "compare",
     "envelope",
     "reach",
     "schema",

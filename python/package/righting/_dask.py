@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 SHARDS_PER_THREAD = 4
 
 
-def run(client: Client, out: Path, jobs: int, shards: int | None) -> None:
+def run(client: Client, out: Path, jobs: int, shards: int | None, keep_plans: bool) -> None:
     """Runs what is missing of a planned sweep in shards, one a task, and waits for all."""
     from distributed import wait
 
@@ -23,7 +23,7 @@ def run(client: Client, out: Path, jobs: int, shards: int | None) -> None:
         threads = client.nthreads()
         shards = SHARDS_PER_THREAD * max(1, sum(threads.values()))
     names = [f"{number}/{shards}" for number in range(1, shards + 1)]
-    tasks = [client.submit(run_shard, str(out), name, jobs, pure=False) for name in names]
+    tasks = [client.submit(run_shard, str(out), name, jobs, keep_plans, pure=False) for name in names]
     try:
         wait(tasks)
     except BaseException:
@@ -32,6 +32,6 @@ def run(client: Client, out: Path, jobs: int, shards: int | None) -> None:
     client.gather(tasks)
 
 
-def run_shard(out: str, shard: str, jobs: int) -> int:
+def run_shard(out: str, shard: str, jobs: int, keep_plans: bool) -> int:
     """What a task does: a shard of the sweep that is planned in a folder; how many cases were recorded."""
-    return _righting.run_shard(out, shard, jobs, WORKER, None)
+    return _righting.run_shard(out, shard, jobs, keep_plans, WORKER, None)

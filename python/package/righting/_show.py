@@ -1,4 +1,4 @@
-"""The interactive page of a plan: inline in a notebook, in a browser elsewhere."""
+"""The interactive page of a plan or a comparison: inline in a notebook, in a browser elsewhere."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from righting._progress import in_notebook
-from righting._righting import Plan
+from righting._righting import Comparison, Plan
 
 
-def show(plan: Plan, height: int) -> Any:
+def show(shown: Plan | Comparison, height: int) -> Any:
     """The page as an output of a notebook; elsewhere it is opened in a browser, and its file is returned."""
-    page = plan.page()
+    page = shown.page()
     if not in_notebook():
         with tempfile.NamedTemporaryFile("w", encoding="utf-8", suffix=".html", delete=False) as file:
             file.write(page)

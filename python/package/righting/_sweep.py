@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from righting import _righting
 from righting._progress import Line, is_watched
-from righting._righting import SweepTable
+from righting._righting import Plan, SweepTable
 
 if TYPE_CHECKING:
     import pandas
@@ -50,6 +50,16 @@ class SweepResults:
     def summary(self) -> dict[str, Any]:
         """What the sweep came to in few numbers: how many succeeded, why others failed, how numbers are spread."""
         return self._table.summary()
+
+    def plan(self, case_id: str) -> Plan:
+        """The plan of a case, verified again, of a sweep that keeps plans (``keep_plans=True``).
+
+        Raises
+        ------
+        FileError
+            None was kept.
+        """
+        return Plan.read(self.folder / "plans" / case_id)
 
     def page(self) -> str | None:
         """The interactive page of a sweep over slew axes and angles, an HTML document; None of any other."""
@@ -90,6 +100,7 @@ def sweep(
     jobs: int | None = None,
     client: Client | None = None,
     shards: int | None = None,
+    keep_plans: bool = False,
     progress: bool | None = None,
 ) -> SweepResults:
     """Plans and verifies every case of a sweep.
@@ -114,6 +125,8 @@ def sweep(
         A client of a Dask cluster, which runs the sweep in shards.
     shards
         With a client: how many; by default four a thread of the cluster.
+    keep_plans
+        Whether to keep the plans of the cases that are planned now, for `SweepResults.plan`.
     progress
         Whether to show how many cases are done; by default in notebooks and on terminals.
 
@@ -130,7 +143,7 @@ def sweep(
     if client is not None:
         from righting._dask import run
 
-        run(client, Path(out).resolve(), jobs or 1, shards)
+        run(client, Path(out).resolve(), jobs or 1, shards, keep_plans)
         return SweepResults(out)
     with ExitStack() as stack:
         show = progress if progress is not None else is_watched()
@@ -143,5 +156,5 @@ def sweep(
             solved += succeeded
             line.show(f"{recorded} of {left} cases: {solved} solved, {recorded - solved} failed")
 
-        _righting.run_shard(out, "1/1", jobs, WORKER, on_record if show else None)
+        _righting.run_shard(out, "1/1", jobs, keep_plans, WORKER, on_record if show else None)
     return SweepResults(out)

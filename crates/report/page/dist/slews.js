@@ -1,4 +1,4 @@
-/*! Generated from sources 4b91e6eff54f90ae0096f0ec1438620363cde063ff63394aecdb5970f57b6fbe */
+/*! Generated from sources 96b3d290685a0839e488c6aa7c6a27ee1c93167f220065bb586aca3a43cec411 */
 /*!
 three
 

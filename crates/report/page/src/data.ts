@@ -12,6 +12,8 @@ export interface ReportData {
   made_by: string;
   spacecraft: Spacecraft;
   cones: ConeData[];
+  /** Failed ones among them. */
+  wheels: WheelData[];
   /** Attitude a slew is to reach, scalar first, body to inertial. */
   target_attitude: [number, number, number, number] | null;
   /** Those on the way to it: attitude, and the node at which it is reached. */
@@ -32,6 +34,15 @@ export interface ConeData {
   boresight_body: [number, number, number];
   /** The cone's axis at each node, a column of unit vectors; inertial axes. */
   axes: string;
+}
+
+/** A reaction wheel. */
+export interface WheelData {
+  /** Unit vector, body axes. */
+  axis: Triple;
+  momentum_max_n_m_s: number;
+  torque_max_n_m: number;
+  failed: boolean;
 }
 
 export interface Fact {
@@ -73,8 +84,6 @@ export interface Spacecraft {
   joint_limits: JointLimits[];
   /** The system's, at the start; inertial axes. */
   center_of_mass_m: [number, number, number];
-  /** Conserved, about the center of mass; inertial axes. */
-  momentum_n_m_s: [number, number, number];
 }
 
 /** A sphere is a capsule whose ends are the same. */
@@ -111,6 +120,10 @@ export type ColumnName =
   | "joint_axes"
   | "capsules_m"
   | "arm_momentum_n_m_s"
+  | "angular_momentum_n_m_s"
+  | "stored_momentum_n_m_s"
+  | "wheel_momenta_n_m_s"
+  | "wheel_torques_n_m"
   | "body_clearance_m"
   | "link_clearance_m";
 

@@ -3,6 +3,7 @@ import { short } from "./format";
 import { jointPanels } from "./joint-panels";
 import type { Motion } from "./motion";
 import { common, DEGREES, type Curve, type Panel } from "./panel";
+import { wheelPanels } from "./wheel-panels";
 import { AXIS_COLORS, color } from "./theme";
 
 /** What the page of a plan plots. */
@@ -41,6 +42,7 @@ export function panels(data: ReportData, motion: Motion): Panel[] {
     },
     ...jointPanels(data, motion, false),
     ...jointPanels(data, motion, true),
+    ...wheelPanels(data, motion),
     { ...plain, title: "Mechanical power of the joints", unit: "W", curves: [one("", motion.component("power_w"))] },
     {
       ...plain, title: "Momentum of the arm's motion, body axes", unit: "N m s",

@@ -67,7 +67,8 @@ function connectStage(stage: Stage): void {
   byId("keep-out").hidden = data.spacecraft.keep_out_radius_m === null;
   byId("target").hidden = data.target_attitude === null;
   byId("cones").hidden = data.cones.length === 0;
-  byId("total-row").hidden = Math.hypot(...data.spacecraft.momentum_n_m_s) === 0;
+  byId("wheels").hidden = byId("wheels-row").hidden = data.wheels.length === 0;
+  byId("total-row").hidden = !stage.hasTotalMomentum;
 }
 
 /** On a narrow page the legend would cover the scene. */

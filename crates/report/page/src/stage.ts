@@ -7,19 +7,21 @@ import { segments } from "./parts";
 import { extent, ghost, SpacecraftModel } from "./spacecraft";
 import { AXIS_COLORS } from "./theme";
 import { Viewport } from "./viewport";
+import { wheelAxes } from "./wheel-axes";
 
-export const LAYERS = ["boresight", "momentum", "keep-out", "cones", "ghosts", "axes", "sky"] as const;
+export const LAYERS = ["boresight", "momentum", "keep-out", "cones", "wheels", "ghosts", "axes", "sky"] as const;
 export type Layer = (typeof LAYERS)[number];
 export type FrameName = "inertial" | "body";
 
-/** Momentum of the arm's motion, of the base with the arm held, and of both, N m s. */
+/** Momentum of the arm's motion, of the base with the arm held, in store in the wheels, and of all, N m s. */
 export interface Momenta {
   arm: Vector3;
   base: Vector3;
+  wheels: Vector3;
   total: Vector3;
 }
 
-const ARROWS = ["arm", "base", "total"] as const;
+const ARROWS = ["arm", "base", "wheels", "total"] as const;
 const BODY_AXES = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
 
 /** Everything in the 3D view, as a function of time. */
@@ -72,13 +74,14 @@ export class Stage {
       made.group.position.copy(center.position);
       return made;
     };
-    this.arrows = { arm: arrow("arm"), base: arrow("base"), total: arrow("total") };
+    this.arrows = { arm: arrow("arm"), base: arrow("base"), wheels: arrow("wheels"), total: arrow("total") };
     this.momentumScale = (0.6 * this.skyRadius) / this.largestMomentum();
 
+    const wheels = wheelAxes(data.wheels, 1.1 * extent(spacecraft));
     const ghosts = this.ghosts();
     const trails = this.trails.map((trail) => trail.group);
     const arrows = ARROWS.map((name) => this.arrows[name].group);
-    body.add(bodyTriad, sphere, ...this.rays, ...this.cones.map((cone) => cone.ray));
+    body.add(bodyTriad, sphere, ...this.rays, ...this.cones.map((cone) => cone.ray), wheels);
     this.sky.add(inertialTriad, lines, ...trails, ...this.cones.map((cone) => cone.group));
     const momentum = new Group();
     momentum.add(...arrows);
@@ -86,7 +89,7 @@ export class Stage {
     this.viewport.scene.add(this.space);
     this.layers = {
       boresight: [], momentum: [momentum, center], "keep-out": [sphere], ghosts,
-      cones: this.cones.flatMap((cone) => [cone.group, cone.ray]), axes: [bodyTriad, inertialTriad], sky: [lines],
+      cones: this.cones.flatMap((cone) => [cone.group, cone.ray]), wheels: [wheels], axes: [bodyTriad, inertialTriad], sky: [lines],
     };
     this.setBoresight(0);
     this.setFrame("inertial");
@@ -115,9 +118,13 @@ export class Stage {
   }
 
   momenta(time: number): Momenta {
-    const arm = this.motion.vector("arm_momentum_n_m_s", time).applyQuaternion(this.motion.attitude(time));
-    const total = new Vector3().fromArray(this.data.spacecraft.momentum_n_m_s);
-    return { arm, base: total.clone().sub(arm), total };
+    const { motion, data } = this;
+    const attitude = motion.attitude(time);
+    const arm = motion.vector("arm_momentum_n_m_s", time).applyQuaternion(attitude);
+    const hasWheels = data.wheels.length > 0;
+    const wheels = hasWheels ? motion.vector("stored_momentum_n_m_s", time).applyQuaternion(attitude) : new Vector3();
+    const total = motion.vector("angular_momentum_n_m_s", time);
+    return { arm, base: total.clone().sub(arm).sub(wheels), wheels, total };
   }
 
   setFrame(frame: FrameName): void {
@@ -209,11 +216,17 @@ export class Stage {
     return [start, ...targets];
   }
 
+  /** Whether the system has any momentum, beyond rounding, beside what moves in it. */
+  get hasTotalMomentum(): boolean {
+    const least = 1e-6 * this.largestMomentum();
+    return Array.from(this.motion.time).some((time) => this.momenta(time).total.length() > least);
+  }
+
   private largestMomentum(): number {
     let largest = Number.MIN_VALUE;
     for (const time of this.motion.time) {
-      const { arm, base, total } = this.momenta(time);
-      largest = Math.max(largest, arm.length(), base.length(), total.length());
+      const momenta = this.momenta(time);
+      largest = Math.max(largest, ...ARROWS.map((name) => momenta[name].length()));
     }
     return largest;
   }

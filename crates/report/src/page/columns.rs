@@ -6,6 +6,7 @@ use righting_multibody::Kinematics;
 use righting_results::{ControlInterval, Node, Trajectory};
 use righting_scenario::bodies::Solid;
 use righting_scenario::collision::Clearance;
+use righting_scenario::wheels::stored;
 use righting_scenario::{CollisionModel, Scenario};
 use serde::Serialize;
 
@@ -23,6 +24,8 @@ pub(super) type Column = String;
 /// `joint_accelerations_rad_s2` are there at the last node too where there are jerks; `attitude_error_rad` is
 /// the angle to a slew's target, or its next waypoint, `arm_points_m` are the origins of frames
 /// 0…j and `joint_axes` unit vectors, both in body axes, `arm_momentum_n_m_s` is H̃ in body axes, and
+/// `angular_momentum_n_m_s` is the system's with that of its wheels, about its center of mass in inertial axes,
+/// `stored_momentum_n_m_s` what the wheels store, in body axes, and
 /// clearances are the least of any link from what the base keeps out and of any two links. `capsules_m` are
 /// the two ends of the segment inside each capsule of the arm that is drawn as one, in body axes.
 #[derive(Debug, Serialize)]
@@ -42,6 +45,10 @@ pub(super) struct Columns {
     joint_axes: Column,
     capsules_m: Column,
     arm_momentum_n_m_s: Column,
+    angular_momentum_n_m_s: Column,
+    stored_momentum_n_m_s: Column,
+    wheel_momenta_n_m_s: Column,
+    wheel_torques_n_m: Column,
     body_clearance_m: Column,
     link_clearance_m: Column,
 }
@@ -82,6 +89,17 @@ impl Columns {
         let momentum = |node: &&Node| -> [f64; 3] {
             model.h_tilde(&node.joint_angles_rad, &node.joint_rates_rad_s).into()
         };
+        let in_store = |node: &&Node| stored(scenario.wheels(), &node.wheel_momenta_n_m_s);
+        let total = |node: &&Node| -> [f64; 3] {
+            let state = node.state();
+            let attitude = state.attitude;
+            (model.inertial_angular_momentum(&state) + attitude.to_inertial(&in_store(node))).into()
+        };
+        let stores = !scenario.wheels().is_empty();
+        let stored_momenta = nodes.iter().filter(|_| stores).flat_map(|node| {
+            let momentum: [f64; 3] = in_store(node).into();
+            momentum
+        });
         let legs = scenario.legs();
         let error = |k: &usize| {
             let share = *k as f64 / trajectory.steps() as f64;
@@ -112,6 +130,12 @@ impl Columns {
                 postures.iter().flat_map(|posture| capsule_ends(scenario, posture)),
             ),
             arm_momentum_n_m_s: encoded(nodes.iter().flat_map(momentum)),
+            angular_momentum_n_m_s: encoded(nodes.iter().flat_map(total)),
+            stored_momentum_n_m_s: encoded(stored_momenta),
+            wheel_momenta_n_m_s: encoded(
+                nodes.iter().flat_map(|node| node.wheel_momenta_n_m_s.clone()),
+            ),
+            wheel_torques_n_m: held(|interval| &interval.wheel_torques_n_m),
             body_clearance_m,
             link_clearance_m,
         }

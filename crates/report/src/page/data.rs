@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::columns::{Columns, capsules, shown, stride};
 use super::cones::{Cone, cones};
+use super::wheels::Wheel;
 use crate::asked;
 use crate::facts::{Fact, UsedLimit, facts, used_limits};
 use crate::summary::{check_rows, verdict};
@@ -28,6 +29,7 @@ pub(super) struct PageData<'a> {
     made_by: String,
     spacecraft: Spacecraft,
     cones: Vec<Cone>,
+    wheels: Vec<Wheel>,
     target_attitude: Option<[f64; 4]>,
     /// Those on the way to it, in order.
     waypoints: Vec<Waypoint>,
@@ -71,8 +73,6 @@ struct Spacecraft {
     joint_limits: Vec<JointLimits>,
     /// The system's, at the start; inertial axes.
     center_of_mass_m: [f64; 3],
-    /// Conserved, about the center of mass; inertial axes.
-    momentum_n_m_s: [f64; 3],
 }
 
 /// As in a system file, a sphere as a capsule whose ends are the same.
@@ -140,6 +140,7 @@ impl<'a> PageData<'a> {
                 let nodes = shown(trajectory).into_iter().map(|k| &trajectory.nodes()[k]);
                 cones(scenario, &nodes.collect::<Vec<_>>())
             },
+            wheels: scenario.wheels().iter().map(Wheel::of).collect(),
             target_attitude,
             waypoints: {
                 let nodes = shown(trajectory);
@@ -179,7 +180,6 @@ impl Spacecraft {
             has_payload: model.rows().is_some_and(|rows| rows.payload.is_some()),
             joint_limits: system.joint_limits.iter().map(JointLimits::of).collect(),
             center_of_mass_m: model.inertial_center_of_mass(&start).into(),
-            momentum_n_m_s: model.inertial_angular_momentum(&start).into(),
         }
     }
 }

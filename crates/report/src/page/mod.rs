@@ -6,6 +6,7 @@ mod compare;
 mod cones;
 mod data;
 mod slews;
+mod wheels;
 
 use righting_results::{Solution, Trajectory};
 use righting_scenario::Scenario;

@@ -1,16 +1,17 @@
-//! What `righting explain` found, as explain.json holds it.
+//! What an arm can do in numbers, as explain.json holds it.
 
-use righting_analysis::detumble::rate_bound_rad_s;
-use righting_analysis::{Abilities, Impossible};
 use righting_scenario::{Maneuver, Scenario, Slew, SystemDescription};
-use schemars::{JsonSchema, schema_for};
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 
-/// What explain.json holds and `--json` prints. Joints are counted from one, vectors are in body axes.
-#[derive(Serialize, JsonSchema)]
+use crate::abilities::Abilities;
+use crate::detumble::rate_bound_rad_s;
+use crate::impossible::Impossible;
+
+/// What an arm can do, and what a scenario asks. Joints are counted from one, vectors are in body axes.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Righting explain")]
-pub struct Printed<'a> {
+pub struct Explanation<'a> {
     /// "righting.explain/1".
     pub schema: &'static str,
     /// Name of the system.
@@ -44,7 +45,8 @@ pub struct Printed<'a> {
     pub maneuver: Option<Asked>,
 }
 
-#[derive(Serialize, JsonSchema)]
+/// Loops of the joints through one posture.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Loops {
     /// How many were looked at.
     pub count: usize,
@@ -56,7 +58,8 @@ pub struct Loops {
     pub rates_deg_s: [f64; 3],
 }
 
-#[derive(Serialize, JsonSchema)]
+/// Principal inertias of the whole system.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Inertia {
     /// Smallest principal inertia, kg m².
     pub smallest_kg_m2: f64,
@@ -66,7 +69,8 @@ pub struct Inertia {
     pub best_detumble_factor: f64,
 }
 
-#[derive(Serialize, JsonSchema)]
+/// What a scenario asks, beside what its arm can do.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Asked {
     /// "slew" or "detumble".
     #[serde(rename = "type")]
@@ -112,43 +116,50 @@ pub struct Asked {
     pub bound_deg_s: Option<f64>,
 }
 
-/// The JSON Schema (draft 2020-12) of explain.json.
-pub fn schema() -> Value {
-    schema_for!(Printed<'_>).to_value()
-}
+impl<'a> Explanation<'a> {
+    /// Of a system, with loops through the middle posture and the clearance that scenarios have by default.
+    pub fn of_system(system: &'a SystemDescription) -> Self {
+        Self::new(system, None, &Abilities::of_system(system))
+    }
 
-/// Of a system, or of a scenario's.
-pub fn printed<'a>(
-    system: &'a SystemDescription,
-    scenario: Option<&'a Scenario>,
-    abilities: &Abilities,
-) -> Printed<'a> {
-    let Abilities { axes, rates, inertia_range_kg_m2 } = abilities;
-    let counted = |joints: &[usize]| joints.iter().map(|joint| joint + 1).collect();
-    let [smallest_kg_m2, largest_kg_m2] = *inertia_range_kg_m2;
-    Printed {
-        schema: "righting.explain/1",
-        system: &system.name,
-        scenario: scenario.map(Scenario::name),
-        joints: system.joint_count(),
-        locked_joints: counted(&axes.locked_joints),
-        idle_joints: counted(&axes.idle_joints),
-        rank: axes.rank(),
-        only_axis: axes.only_axis().map(Into::into),
-        singular_values: axes.singular_values,
-        fastest_deg_s: axes.fastest_rad_s.to_degrees(),
-        loops: Loops {
-            count: rates.loops,
-            principal_axes: rates.principal_axes.map(Into::into),
-            turns_deg: rates.turns_rad.map(f64::to_degrees),
-            rates_deg_s: rates.rates_rad_s.map(f64::to_degrees),
-        },
-        inertia: Inertia {
-            smallest_kg_m2,
-            largest_kg_m2,
-            best_detumble_factor: abilities.best_detumble_factor(),
-        },
-        maneuver: scenario.map(|scenario| asked(scenario, abilities)),
+    /// Of a scenario's system, with loops through the posture at its start, and of its maneuver.
+    pub fn of_scenario(scenario: &'a Scenario) -> Self {
+        Self::new(scenario.system(), Some(scenario), &Abilities::of_scenario(scenario))
+    }
+
+    /// Of abilities that are known: those of `system`, which is the scenario's if one is given.
+    pub fn new(
+        system: &'a SystemDescription,
+        scenario: Option<&'a Scenario>,
+        abilities: &Abilities,
+    ) -> Self {
+        let Abilities { axes, rates, inertia_range_kg_m2 } = abilities;
+        let counted = |joints: &[usize]| joints.iter().map(|joint| joint + 1).collect();
+        let [smallest_kg_m2, largest_kg_m2] = *inertia_range_kg_m2;
+        Self {
+            schema: "righting.explain/1",
+            system: &system.name,
+            scenario: scenario.map(Scenario::name),
+            joints: system.joint_count(),
+            locked_joints: counted(&axes.locked_joints),
+            idle_joints: counted(&axes.idle_joints),
+            rank: axes.rank(),
+            only_axis: axes.only_axis().map(Into::into),
+            singular_values: axes.singular_values,
+            fastest_deg_s: axes.fastest_rad_s.to_degrees(),
+            loops: Loops {
+                count: rates.loops,
+                principal_axes: rates.principal_axes.map(Into::into),
+                turns_deg: rates.turns_rad.map(f64::to_degrees),
+                rates_deg_s: rates.rates_rad_s.map(f64::to_degrees),
+            },
+            inertia: Inertia {
+                smallest_kg_m2,
+                largest_kg_m2,
+                best_detumble_factor: abilities.best_detumble_factor(),
+            },
+            maneuver: scenario.map(|scenario| asked(scenario, abilities)),
+        }
     }
 }
 
