@@ -34,9 +34,11 @@ impl MultipleShooting<'_> {
                 self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?
             }
             LinearSolverChoice::Auto | LinearSolverChoice::Stage => {
-                let known = self.stages.take();
-                let mut stages =
-                    known.unwrap_or_else(|| StageKkt::new(&self.stage_dims()).stop_at_excess());
+                let dims = self.stage_dims();
+                let mut stages = match self.stages.take() {
+                    Some(known) => known.resized(&dims),
+                    None => StageKkt::new(&dims).stop_at_excess(),
+                };
                 let solution =
                     self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
                 self.stages = Some(stages);
@@ -62,7 +64,7 @@ impl MultipleShooting<'_> {
         let mut given_up = Vec::new();
         let by_interior = match settings.optimizer {
             Optimizer::Interior => {
-                self.solve_by_interior(start, options, stage, on_iteration, &mut given_up)
+                self.solve_by_interior(start, settings, stage, on_iteration, &mut given_up)
             }
             Optimizer::Ipopt => None,
         };
@@ -97,15 +99,19 @@ impl MultipleShooting<'_> {
     fn solve_by_interior(
         &mut self,
         start: &righting_ipopt::Start,
-        options: &Options,
+        settings: &Settings,
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
         given_up: &mut Vec<Attempt>,
     ) -> Option<OcpSolution> {
         let mut history = Vec::new();
-        let options = Options { fast_step_computation: true, ..options.clone() };
+        let options = Options { fast_step_computation: true, ..settings.ipopt.clone() };
         let record = recording(&mut history, on_iteration);
-        match righting_interior::solve(self, &options, start, stage, record) {
+        let solved = match settings.examines_curvature {
+            true => righting_interior::solve(self, &options, start, stage, record),
+            false => righting_interior::solve_first_order(self, &options, start, stage, record),
+        };
+        match solved {
             Ok(solution) => {
                 let used = (Optimizer::Interior, UsedLinearSolver::Stage);
                 Some(self.solution(solution, history, used))
