@@ -2,6 +2,7 @@ use std::time::Duration;
 
 use righting_interior::InteriorError;
 use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
+use righting_nlp::{AugmentedSystem, Declarations, LinearSolver};
 
 use crate::attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 use crate::component_bounds::ComponentBounds;
@@ -34,11 +35,7 @@ impl MultipleShooting<'_> {
                 self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?
             }
             LinearSolverChoice::Auto | LinearSolverChoice::Stage => {
-                let dims = self.stage_dims();
-                let mut stages = match self.stages.take() {
-                    Some(known) => known.resized(&dims),
-                    None => StageKkt::new(&dims).stop_at_excess(),
-                };
+                let mut stages = self.stage_solver();
                 let solution =
                     self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
                 self.stages = Some(stages);
@@ -49,6 +46,30 @@ impl MultipleShooting<'_> {
             self.judge(&mut solution, &settings.ipopt)?;
         }
         Ok(solution)
+    }
+
+    /// Recognises the structure of the linear systems, which the next solve by stages then finds known.
+    ///
+    /// # Errors
+    /// [`OcpError::Solve`] when the stage solver refuses it.
+    pub fn prepare(&mut self) -> Result<(), OcpError> {
+        let declared = Declarations::of(self).map_err(SolveError::Invalid)?;
+        let matrix = AugmentedSystem::new(&declared);
+        let mut stages = self.stage_solver();
+        stages
+            .analyse(matrix.order(), matrix.rows(), matrix.columns())
+            .map_err(SolveError::LinearSolver)?;
+        self.stages = Some(stages);
+        Ok(())
+    }
+
+    /// The stage solver of the last solve, or a new one.
+    fn stage_solver(&mut self) -> StageKkt {
+        let dims = self.stage_dims();
+        match self.stages.take() {
+            Some(known) => known.resized(&dims),
+            None => StageKkt::new(&dims).stop_at_excess(),
+        }
     }
 
     /// Solves with `stage`, and where that does not succeed with MUMPS if the settings allow.

@@ -235,6 +235,37 @@ impl Replanner {
         Self { iterations: Some(iterations), ..self }
     }
 
+    /// Gets ready for a replan at node `node`: what does not depend on what is measured there is done before (the
+    /// preparation phase of Diehl, Bock & Schlöder). A replan that is not prepared does it itself.
+    ///
+    /// # Errors
+    /// [`OcpError`] when the linear solver refuses the problem.
+    ///
+    /// # Panics
+    /// There is no step left.
+    pub fn prepare(&mut self, node: usize) -> Result<(), OcpError> {
+        let problem = Arc::clone(&self.problem);
+        let mut program = self.program(&problem, node, &problem.model.initial)?;
+        let prepared = program.prepare();
+        self.workspace = Some(program.into_workspace());
+        prepared
+    }
+
+    /// The program of the steps from node `node` on, in the replanner's workspace.
+    fn program<'p>(
+        &mut self,
+        problem: &'p Problem,
+        node: usize,
+        from: &[f64],
+    ) -> Result<MultipleShooting<'p>, OcpError> {
+        let steps = problem.grid.steps() - node;
+        let grid = Grid::new(problem.grid.step_s() * steps as f64, steps)?;
+        let functions = problem.model.asked_functions();
+        let workspace = self.workspace.take();
+        let workspace = workspace.unwrap_or_else(|| ShootingWorkspace::new(functions));
+        MultipleShooting::in_workspace(functions, grid, from, workspace)
+    }
+
     /// Plans the steps from node `node` on, where the maneuver is as measured.
     ///
     /// A solve that is stopped, by `deadline` or [in real time](Self::in_real_time), ends in the motion that its last
@@ -255,15 +286,10 @@ impl Replanner {
     ) -> Result<Option<Replan>, OcpError> {
         let started = Instant::now();
         let problem = Arc::clone(&self.problem);
-        let Problem { scaling, model, grid, .. } = &*problem;
-        let steps = grid.steps() - node;
-        let start = self.point.after(self.point.steps() - steps);
-        let grid = Grid::new(grid.step_s() * steps as f64, steps)?;
+        let Problem { scaling, grid, .. } = &*problem;
+        let start = self.point.after(self.point.steps() + node - grid.steps());
         let here = self.state(node, measured);
-        let functions = model.asked_functions();
-        let workspace = self.workspace.take();
-        let workspace = workspace.unwrap_or_else(|| ShootingWorkspace::new(functions));
-        let mut program = MultipleShooting::in_workspace(functions, grid, &here, workspace)?;
+        let mut program = self.program(&problem, node, &here)?;
         let is_late = || deadline.is_some_and(|deadline| started.elapsed() > deadline);
         let found = self.solved(&mut program, &here, &start, is_late);
         self.workspace = Some(program.into_workspace());

@@ -164,6 +164,8 @@ fn a_deadline_that_is_over_leaves_the_last_plan() {
         joint_rates_rad_s: &node.joint_rates_rad_s,
     };
     let mut undisturbed = replanner.clone();
+    // Nor does it matter that one of them is prepared.
+    undisturbed.prepare(20).unwrap();
     assert_eq!(replanner.replan(20, &measured, Some(Duration::ZERO)).unwrap(), None);
     let after = replanned(&mut replanner, 20, node, attitude);
     let expected = replanned(&mut undisturbed, 20, node, attitude);
