@@ -121,4 +121,4 @@ mod state;
 mod watchdog;
 
 pub use error::{FailureReason, InteriorError};
-pub use solve::solve;
+pub use solve::{solve, solve_first_order};

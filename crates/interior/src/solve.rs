@@ -24,7 +24,40 @@ pub fn solve<P, L>(
     options: &Options,
     start: &Start,
     linear_solver: &mut L,
+    on_iteration: impl FnMut(&Iteration) -> Control,
+) -> Result<NlpSolution, InteriorError>
+where
+    P: Problem + ?Sized,
+    L: LinearSolver + ?Sized,
+{
+    timed(problem, options, start, linear_solver, on_iteration, true)
+}
+
+/// The same without the look at the reduced Hessian, which takes a factorisation: its definiteness stays unknown.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_first_order<P, L>(
+    problem: &mut P,
+    options: &Options,
+    start: &Start,
+    linear_solver: &mut L,
+    on_iteration: impl FnMut(&Iteration) -> Control,
+) -> Result<NlpSolution, InteriorError>
+where
+    P: Problem + ?Sized,
+    L: LinearSolver + ?Sized,
+{
+    timed(problem, options, start, linear_solver, on_iteration, false)
+}
+
+fn timed<P, L>(
+    problem: &mut P,
+    options: &Options,
+    start: &Start,
+    linear_solver: &mut L,
     mut on_iteration: impl FnMut(&Iteration) -> Control,
+    examines_curvature: bool,
 ) -> Result<NlpSolution, InteriorError>
 where
     P: Problem + ?Sized,
@@ -36,11 +69,8 @@ where
         iterations = iteration.iteration;
         on_iteration(iteration)
     };
-    run(problem, options, start, linear_solver, record, clock).map_err(|reason| InteriorError {
-        reason,
-        iterations,
-        time: clock.elapsed(),
-    })
+    run(problem, options, start, linear_solver, record, clock, examines_curvature)
+        .map_err(|reason| InteriorError { reason, iterations, time: clock.elapsed() })
 }
 
 fn run<P, L>(
@@ -50,6 +80,7 @@ fn run<P, L>(
     linear_solver: &mut L,
     on_iteration: impl FnMut(&Iteration) -> Control,
     clock: Instant,
+    examines_curvature: bool,
 ) -> Result<NlpSolution, FailureReason>
 where
     P: Problem + ?Sized,
@@ -65,7 +96,7 @@ where
         algorithm.estimate_multipliers();
     }
     let (status, last_iteration) = algorithm.run(on_iteration)?;
-    let reduced_hessian = match status.is_success() {
+    let reduced_hessian = match status.is_success() && examines_curvature {
         true => Some(algorithm.reduced_hessian()?),
         false => None,
     };

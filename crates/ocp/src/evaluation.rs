@@ -78,7 +78,7 @@ fn scatter(
 }
 
 /// Evaluates a function of the last state alone; every lane holds the same point.
-fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
+pub(crate) fn load_terminal(workspace: &mut righting_symbolic::Workspace, state: &[f64]) {
     for (lanes, &value) in
         workspace.input_mut(0).chunks_exact_mut(righting_symbolic::LANES).zip(state)
     {

@@ -13,6 +13,7 @@ const STEP_H: usize = 0;
 const STEP_JACOBIANS: usize = 1;
 
 /// The workspaces of a [`NodeFunction`].
+#[derive(Clone)]
 pub(crate) struct NodeWorkspace {
     pub(crate) value: Workspace,
     pub(crate) first: Workspace,
@@ -30,6 +31,7 @@ impl NodeWorkspace {
 }
 
 /// Evaluates blocks of steps. One thread owns it; the functions are shared.
+#[derive(Clone)]
 pub(crate) struct Evaluator {
     pub(crate) ode: NodeWorkspace,
     pub(crate) running: NodeWorkspace,
@@ -122,6 +124,11 @@ impl Evaluator {
         load_jacobians(&mut self.step_first, store);
         functions.step.first.evaluate_block(&mut self.step_first);
         self.step_first.output(0)
+    }
+
+    /// What [`step_jacobian`](Self::step_jacobian) computed last, and F(x_k, u_k): one row of lanes per state.
+    pub(crate) fn linearization(&self) -> (&[f64], &[f64]) {
+        (self.step_first.output(0), &self.states)
     }
 
     /// The varying entries of ∇²(λᵀ(x⁺ − F)) of a block, one row of lanes each, at the point where

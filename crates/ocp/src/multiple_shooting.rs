@@ -1,9 +1,9 @@
-use crate::block::Block;
 use crate::decision_layout::{DecisionLayout, ShootingDimensions};
 use crate::error::OcpError;
 use crate::evaluator::Evaluator;
 use crate::grid::Grid;
 use crate::kkt::StageKkt;
+use crate::shooting_workspace::ShootingWorkspace;
 use crate::stage_functions::StageFunctions;
 use crate::stage_store::StageStore;
 use crate::structure::{HessianStructure, JacobianStructure};
@@ -38,6 +38,19 @@ impl<'f> MultipleShooting<'f> {
         grid: Grid,
         initial: &[f64],
     ) -> Result<Self, OcpError> {
+        Self::in_workspace(functions, grid, initial, ShootingWorkspace::new(functions))
+    }
+
+    /// The same with the workspace of another program of these functions, on whatever grid.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn in_workspace(
+        functions: &'f StageFunctions,
+        grid: Grid,
+        initial: &[f64],
+        workspace: ShootingWorkspace,
+    ) -> Result<Self, OcpError> {
         if initial.len() != functions.all_states {
             return Err(OcpError::Dimension {
                 what: "initial state",
@@ -57,19 +70,27 @@ impl<'f> MultipleShooting<'f> {
             terminal: functions.terminal_bounds.len(),
             steps: grid.steps(),
         };
+        let ShootingWorkspace { jacobian, hessian, evaluator, store, stored_at, stages } =
+            workspace.for_steps(grid.steps());
         Ok(Self {
             functions,
             grid,
             layout: DecisionLayout::new(dimensions),
             initial: functions.active.iter().map(|&i| initial[i]).collect(),
             full_initial: initial.to_vec(),
-            jacobian: JacobianStructure::new(functions, grid.steps()),
-            hessian: HessianStructure::new(functions, grid.steps()),
-            evaluator: Evaluator::new(functions),
-            store: StageStore::new(functions, Block::count_for(grid.steps())),
-            stored_at: Vec::new(),
-            stages: None,
+            jacobian,
+            hessian,
+            evaluator,
+            store,
+            stored_at,
+            stages,
         })
+    }
+
+    /// What another program of the same functions can go on with.
+    pub fn into_workspace(self) -> ShootingWorkspace {
+        let Self { jacobian, hessian, evaluator, store, stored_at, stages, .. } = self;
+        ShootingWorkspace { jacobian, hessian, evaluator, store, stored_at, stages }
     }
 
     /// Where everything lives in the vectors.

@@ -16,6 +16,9 @@ pub struct Settings {
     /// Whether the residuals of optimality are computed again after the solve, apart from the optimizer, and
     /// decide on its status. Default false: what is a start for another solve needs no proof.
     pub judges: bool,
+    /// Whether [`Optimizer::Interior`] looks at the reduced Hessian of its solution. Default true; false saves a
+    /// factorisation.
+    pub examines_curvature: bool,
 }
 
 impl Default for Settings {
@@ -26,6 +29,7 @@ impl Default for Settings {
             linear_solver: LinearSolverChoice::Auto,
             retry_at_iteration_limit: true,
             judges: false,
+            examines_curvature: true,
         }
     }
 }

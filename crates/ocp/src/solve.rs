@@ -2,6 +2,7 @@ use std::time::Duration;
 
 use righting_interior::InteriorError;
 use righting_ipopt::{Control, Iteration, Multipliers, Options, SolveError, Status};
+use righting_nlp::{AugmentedSystem, Declarations, LinearSolver};
 
 use crate::attempt::{Attempt, AttemptEnd, UsedLinearSolver};
 use crate::component_bounds::ComponentBounds;
@@ -34,9 +35,7 @@ impl MultipleShooting<'_> {
                 self.solve_with_mumps(&start, &settings.ipopt, &mut on_iteration)?
             }
             LinearSolverChoice::Auto | LinearSolverChoice::Stage => {
-                let known = self.stages.take();
-                let mut stages =
-                    known.unwrap_or_else(|| StageKkt::new(&self.stage_dims()).stop_at_excess());
+                let mut stages = self.stage_solver();
                 let solution =
                     self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
                 self.stages = Some(stages);
@@ -47,6 +46,30 @@ impl MultipleShooting<'_> {
             self.judge(&mut solution, &settings.ipopt)?;
         }
         Ok(solution)
+    }
+
+    /// Recognises the structure of the linear systems, which the next solve by stages then finds known.
+    ///
+    /// # Errors
+    /// [`OcpError::Solve`] when the stage solver refuses it.
+    pub fn prepare(&mut self) -> Result<(), OcpError> {
+        let declared = Declarations::of(self).map_err(SolveError::Invalid)?;
+        let matrix = AugmentedSystem::new(&declared);
+        let mut stages = self.stage_solver();
+        stages
+            .analyse(matrix.order(), matrix.rows(), matrix.columns())
+            .map_err(SolveError::LinearSolver)?;
+        self.stages = Some(stages);
+        Ok(())
+    }
+
+    /// The stage solver of the last solve, or a new one.
+    fn stage_solver(&mut self) -> StageKkt {
+        let dims = self.stage_dims();
+        match self.stages.take() {
+            Some(known) => known.resized(&dims),
+            None => StageKkt::new(&dims).stop_at_excess(),
+        }
     }
 
     /// Solves with `stage`, and where that does not succeed with MUMPS if the settings allow.
@@ -62,7 +85,7 @@ impl MultipleShooting<'_> {
         let mut given_up = Vec::new();
         let by_interior = match settings.optimizer {
             Optimizer::Interior => {
-                self.solve_by_interior(start, options, stage, on_iteration, &mut given_up)
+                self.solve_by_interior(start, settings, stage, on_iteration, &mut given_up)
             }
             Optimizer::Ipopt => None,
         };
@@ -97,15 +120,19 @@ impl MultipleShooting<'_> {
     fn solve_by_interior(
         &mut self,
         start: &righting_ipopt::Start,
-        options: &Options,
+        settings: &Settings,
         stage: &mut impl righting_ipopt::LinearSolver,
         on_iteration: &mut impl FnMut(&Iteration) -> Control,
         given_up: &mut Vec<Attempt>,
     ) -> Option<OcpSolution> {
         let mut history = Vec::new();
-        let options = Options { fast_step_computation: true, ..options.clone() };
+        let options = Options { fast_step_computation: true, ..settings.ipopt.clone() };
         let record = recording(&mut history, on_iteration);
-        match righting_interior::solve(self, &options, start, stage, record) {
+        let solved = match settings.examines_curvature {
+            true => righting_interior::solve(self, &options, start, stage, record),
+            false => righting_interior::solve_first_order(self, &options, start, stage, record),
+        };
+        match solved {
             Ok(solution) => {
                 let used = (Optimizer::Interior, UsedLinearSolver::Stage);
                 Some(self.solution(solution, history, used))

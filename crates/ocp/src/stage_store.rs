@@ -5,6 +5,7 @@ use crate::stage_functions::StageFunctions;
 
 /// What the Hessian of a step reuses from its Jacobian: the stage points y_1, y_2, … and the varying
 /// entries of J_1, J_2, …, lanes side by side.
+#[derive(Clone)]
 pub(crate) struct StageStore {
     points: Vec<f64>,
     jacobians: Vec<f64>,
@@ -25,6 +26,12 @@ impl StageStore {
             point_width,
             jacobian_width,
         }
+    }
+
+    /// Makes room for so many blocks.
+    pub(crate) fn resize(&mut self, blocks: usize) {
+        self.points.resize(blocks * self.stages * self.point_width, 0.0);
+        self.jacobians.resize(blocks * self.stages * self.jacobian_width, 0.0);
     }
 
     /// Points and Jacobians of the stages of each block.

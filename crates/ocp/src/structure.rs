@@ -49,7 +49,7 @@ pub(crate) struct JacobianStructure {
     pub(crate) path: Scatter,
     pub(crate) terminal: Scatter,
     steps: usize,
-    entries: usize,
+    terminal_entries: usize,
     first: FirstSlots,
 }
 
@@ -90,9 +90,19 @@ impl JacobianStructure {
             }),
             terminal: Scatter::new(terminal, find_in(&terminal.entries)),
             steps,
-            entries: steps * step_entries - state_entries + first.kept + terminal.entries.len(),
+            terminal_entries: terminal.entries.len(),
             first,
         }
+    }
+
+    /// The structure of the same functions over another number of steps.
+    pub(crate) fn of_steps(self, steps: usize) -> Self {
+        Self { steps, ..self }
+    }
+
+    /// Number of entries.
+    pub(crate) fn entries(&self) -> usize {
+        self.terminal_start() + self.terminal_entries
     }
 
     /// Where a slot of a step is; `None` for the part that step 0 does not have.
@@ -110,7 +120,7 @@ impl JacobianStructure {
         functions: &StageFunctions,
         layout: &DecisionLayout,
     ) -> TripletStructure {
-        let mut triplets = Triplets::with_capacity(self.entries);
+        let mut triplets = Triplets::with_capacity(self.entries());
         let n = functions.states;
         let [defect_states, defect_controls] = by_variable(&functions.step.jacobian, n);
         let [stage_states, stage_controls] = by_variable(&functions.stage.jacobian, n);
@@ -198,6 +208,11 @@ impl HessianStructure {
             terminal: scatter(&functions.terminal.hessian),
             ordered,
         }
+    }
+
+    /// The structure of the same functions over another number of steps.
+    pub(crate) fn of_steps(self, steps: usize) -> Self {
+        Self { steps, ..self }
     }
 
     /// Number of entries.

@@ -1,12 +1,14 @@
 //! The rest of a maneuver planned anew, time and again, from where it is.
 
-use std::num::NonZeroUsize;
+mod barrier;
+
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use righting_ocp::{
-    Control, Grid, InitialGuess, Iteration, LinearSolverChoice, OcpError, OcpStart, Optimizer,
-    PrimalDualPoint, Samples, Settings, close_guess_settings, warm_start_settings,
+    Control, Grid, InitialGuess, Iteration, LinearSolverChoice, MultipleShooting, OcpError,
+    OcpSolution, OcpStart, Optimizer, PrimalDualPoint, Samples, Settings, ShootingWorkspace,
 };
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
@@ -19,12 +21,10 @@ use crate::planner::PlanError;
 use crate::scaling::Scaling;
 use crate::search::{Model, settings, substeps_of_spin};
 
-/// Barrier parameter of a replan, where the objective is about one.
-const BARRIER: f64 = 1e-7;
-/// Its tolerance.
-const TOLERANCE: f64 = 1e-6;
-/// Iterations after which it is given up: most need three.
-const ITERATIONS: u32 = 40;
+/// Gaps that are left where a motion follows from its controls.
+const GAP: f64 = 1e-9;
+/// By how much the motion of a solve that was stopped may pass a limit.
+const VIOLATION: f64 = 1e-4;
 
 /// What is not planned anew.
 const JERKS: &str =
@@ -37,8 +37,12 @@ const WAYPOINTS: &str = "maneuver.waypoints: slews with waypoints are not planne
 pub struct Replan {
     /// Joint accelerations of the steps that are left, rad/s²; one row a step.
     pub accelerations_rad_s2: Vec<Vec<f64>>,
+    /// The objective from here on, by the weights of the scenario.
+    pub objective: f64,
     /// Iterations of the optimizer.
     pub iterations: usize,
+    /// Whether it is a solution; if not, it is nearer to one than what was planned before.
+    pub converged: bool,
     /// Wall time that it took.
     pub time: Duration,
 }
@@ -55,6 +59,10 @@ pub struct Replanner {
     problem: Arc<Problem>,
     /// The solution over what was left at the last solve.
     point: PrimalDualPoint,
+    /// Iterations of a replan in real time.
+    iterations: Option<NonZeroU32>,
+    /// What solves work in, from one to the next.
+    workspace: Option<ShootingWorkspace>,
 }
 
 /// What stays the same from solve to solve.
@@ -63,7 +71,10 @@ struct Problem {
     /// In units of its own.
     scenario: Scenario,
     model: Model,
-    settings: Settings,
+    /// Settings of a start from the last solution …
+    warm: Settings,
+    /// … and of one from a motion.
+    from_motion: Settings,
     /// The asked grid.
     grid: Grid,
     /// Angular momentum at its nodes, inertial axes, as far as that is among the states.
@@ -111,6 +122,7 @@ impl Replanner {
         let settings = Settings {
             optimizer: Optimizer::Interior,
             judges: false,
+            examines_curvature: false,
             linear_solver: LinearSolverChoice::Stage,
             ..settings::delivered(&scenario)
         };
@@ -122,8 +134,14 @@ impl Replanner {
         let momentum = model.coordinates.momentum();
         let mut momenta = Samples::new(momentum.len());
         solution.states.rows().for_each(|row| momenta.push(&row[momentum.clone()]));
-        let problem = Problem { scaling, scenario, model, settings, grid, momenta };
-        Ok(Self { problem: Arc::new(problem), point: solution.point })
+        let mut program = model.program_from(grid, &model.initial)?;
+        let (barrier, solution) =
+            barrier::costing_little(&mut program, scenario.maneuver(), solution, &settings)?;
+        let workspace = Some(program.into_workspace());
+        let (warm, from_motion) =
+            (barrier::warm(&settings, barrier), barrier::from_motion(&settings, barrier));
+        let problem = Problem { scaling, scenario, model, warm, from_motion, grid, momenta };
+        Ok(Self { problem: Arc::new(problem), point: solution.point, iterations: None, workspace })
     }
 
     /// Where the model has the maneuver from node `node` on, where it is measured, with accelerations of its joints
@@ -194,14 +212,66 @@ impl Replanner {
         if substeps > NonZeroUsize::MIN {
             model.take_substeps(substeps)?;
         }
-        let (settings, grid, momenta) =
-            (before.settings.clone(), before.grid, before.momenta.clone());
-        let problem = Problem { scaling, scenario, model, settings, grid, momenta };
-        Ok(Self { problem: Arc::new(problem), point: self.point.clone() })
+        let problem = Problem {
+            scaling,
+            scenario,
+            model,
+            warm: before.warm.clone(),
+            from_motion: before.from_motion.clone(),
+            grid: before.grid,
+            momenta: before.momenta.clone(),
+        };
+        Ok(Self {
+            problem: Arc::new(problem),
+            point: self.point.clone(),
+            iterations: self.iterations,
+            workspace: None,
+        })
     }
 
-    /// Plans the steps from node `node` on, where the maneuver is as measured. None where the solve does not
-    /// converge, or takes longer than `deadline`: the last plan then stands.
+    /// In real time: a replan makes no more than so many iterations, and their controls are taken as they are (Diehl,
+    /// Bock & Schlöder, *SIAM Journal on Control and Optimization* 43, 2005, make one).
+    pub fn in_real_time(self, iterations: NonZeroU32) -> Self {
+        Self { iterations: Some(iterations), ..self }
+    }
+
+    /// Gets ready for a replan at node `node`: what does not depend on what is measured there is done before (the
+    /// preparation phase of Diehl, Bock & Schlöder). A replan that is not prepared does it itself.
+    ///
+    /// # Errors
+    /// [`OcpError`] when the linear solver refuses the problem.
+    ///
+    /// # Panics
+    /// There is no step left.
+    pub fn prepare(&mut self, node: usize) -> Result<(), OcpError> {
+        let problem = Arc::clone(&self.problem);
+        let mut program = self.program(&problem, node, &problem.model.initial)?;
+        let prepared = program.prepare();
+        self.workspace = Some(program.into_workspace());
+        prepared
+    }
+
+    /// The program of the steps from node `node` on, in the replanner's workspace.
+    fn program<'p>(
+        &mut self,
+        problem: &'p Problem,
+        node: usize,
+        from: &[f64],
+    ) -> Result<MultipleShooting<'p>, OcpError> {
+        let steps = problem.grid.steps() - node;
+        let grid = Grid::new(problem.grid.step_s() * steps as f64, steps)?;
+        let functions = problem.model.asked_functions();
+        let workspace = self.workspace.take();
+        let workspace = workspace.unwrap_or_else(|| ShootingWorkspace::new(functions));
+        MultipleShooting::in_workspace(functions, grid, from, workspace)
+    }
+
+    /// Plans the steps from node `node` on, where the maneuver is as measured.
+    ///
+    /// A solve that is stopped, by `deadline` or [in real time](Self::in_real_time), ends in the motion that its last
+    /// controls make. That is taken if it keeps the limits as well as the last plan flown from here would, and ends
+    /// nearer. None where it is not, or where the solve does not converge: the last plan then stands. After the
+    /// deadline no iteration begins.
     ///
     /// # Errors
     /// [`OcpError`] when what is measured is not finite.
@@ -215,43 +285,77 @@ impl Replanner {
         deadline: Option<Duration>,
     ) -> Result<Option<Replan>, OcpError> {
         let started = Instant::now();
-        let Problem { scaling, scenario, model, settings, grid, .. } = &*self.problem;
-        let steps = grid.steps() - node;
-        let start = self.point.after(self.point.steps() - steps);
-        let grid = Grid::new(grid.step_s() * steps as f64, steps)?;
+        let problem = Arc::clone(&self.problem);
+        let Problem { scaling, grid, .. } = &*problem;
+        let start = self.point.after(self.point.steps() + node - grid.steps());
         let here = self.state(node, measured);
-        let mut program = model.program_from(grid, &here)?;
+        let mut program = self.program(&problem, node, &here)?;
         let is_late = || deadline.is_some_and(|deadline| started.elapsed() > deadline);
-        let watch = |_: &Iteration| if is_late() { Control::Stop } else { Control::Continue };
-        let mut solution = program.solve(&OcpStart::Warm(start.clone()), &warm(settings), watch)?;
-        if !solution.status.is_success() && !is_late() {
-            // Where multipliers mislead, the motion that the last controls make is a start without any.
-            let (_, controls) = program.trajectory(&start);
-            let states = Samples::repeated(&here, steps + 1);
-            let mut guess = InitialGuess { states, controls };
-            let substeps = model.asked_functions().substeps().get();
-            let guesses = model.initial_guesses(scenario, steps);
-            guesses.simulate(&mut guess, 0, grid.step_s(), substeps);
-            let settings = close_guess_settings(settings);
-            solution = program.solve(&OcpStart::Guess(guess), &settings, watch)?;
-        }
-        let is_new = solution.status.is_success();
-        self.point = if is_new { solution.point.clone() } else { start };
-        Ok(is_new.then(|| Replan {
+        let found = self.solved(&mut program, &here, &start, is_late);
+        self.workspace = Some(program.into_workspace());
+        let found = found?;
+        let replan = found.as_ref().map(|found| Replan {
             accelerations_rad_s2: {
-                let rows = solution.controls.rows();
+                let rows = found.controls.rows();
                 rows.map(|row| scaling.accelerations(row)).collect()
             },
-            iterations: solution.iterations(),
+            objective: scaling.objective * found.objective,
+            iterations: found.iterations(),
+            converged: found.status.is_success(),
             time: started.elapsed(),
-        }))
+        });
+        self.point = found.map_or(start, |found| found.point);
+        Ok(replan)
+    }
+
+    /// The solution of the program from the last one's rest, or what a solve that was stopped came to.
+    fn solved(
+        &self,
+        program: &mut MultipleShooting<'_>,
+        here: &[f64],
+        start: &PrimalDualPoint,
+        is_late: impl Fn() -> bool,
+    ) -> Result<Option<OcpSolution>, OcpError> {
+        let Problem { scenario, model, warm, from_motion, .. } = &*self.problem;
+        let watch = |_: &Iteration| if is_late() { Control::Stop } else { Control::Continue };
+        let mut settings = warm.clone();
+        if let Some(iterations) = self.iterations {
+            settings.ipopt.max_iterations = iterations.get();
+        }
+        let mut solution = program.solve(&OcpStart::Warm(start.clone()), &settings, watch)?;
+        if !solution.status.is_success() && !is_late() && self.iterations.is_none() {
+            // Where multipliers mislead, the motion that the last controls make is a start without any.
+            let (_, controls) = program.trajectory(start);
+            let grid = program.grid();
+            let states = Samples::repeated(here, grid.steps() + 1);
+            let mut guess = InitialGuess { states, controls };
+            let substeps = model.asked_functions().substeps().get();
+            let guesses = model.initial_guesses(scenario, grid.steps());
+            guesses.simulate(&mut guess, 0, grid.step_s(), substeps);
+            solution = program.solve(&OcpStart::Guess(guess), from_motion, watch)?;
+        }
+        let is_stopped = self.iterations.is_some() || is_late();
+        Ok(match solution.status.is_success() {
+            true => Some(solution),
+            false if is_stopped => ending_nearer(program, solution, start),
+            false => None,
+        })
     }
 }
 
-/// Settings of a start from the last solution.
-fn warm(settings: &Settings) -> Settings {
-    let mut settings = warm_start_settings(settings, BARRIER);
-    settings.ipopt.tolerance = settings.ipopt.tolerance.max(TOLERANCE);
-    settings.ipopt.max_iterations = settings.ipopt.max_iterations.min(ITERATIONS);
-    settings
+/// The motion that the controls of a solve that was stopped make, if it is better than the last plan's.
+fn ending_nearer(
+    program: &mut MultipleShooting<'_>,
+    mut solution: OcpSolution,
+    last: &PrimalDualPoint,
+) -> Option<OcpSolution> {
+    let mut last = last.clone();
+    let mut outcome = |point: &mut PrimalDualPoint| {
+        program.close_gaps(point, GAP);
+        program.outcome(point)
+    };
+    let (new, old) = (outcome(&mut solution.point), outcome(&mut last));
+    let keeps_limits = new.violation <= VIOLATION.max(old.violation);
+    solution.objective = new.objective;
+    (keeps_limits && new.terminal_cost < old.terminal_cost).then_some(solution)
 }

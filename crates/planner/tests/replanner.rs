@@ -1,5 +1,8 @@
 //! A maneuver planned anew on its way: from where it was planned to be, and from elsewhere.
 
+use std::num::NonZeroU32;
+use std::time::Duration;
+
 use righting_multibody::Quaternion;
 use righting_ocp::Control;
 use righting_planner::{Measured, Planned, Planner, Replan, Replanner};
@@ -121,6 +124,52 @@ fn a_slew_that_is_off_comes_back_to_its_target() {
             assert!(miss_deg < 0.02, "{name} from step {step}: {miss_deg}°");
         }
     }
+}
+
+/// Two iterations from half a degree off end near the target, within a hundredth of the optimum.
+#[test]
+fn in_real_time_a_slew_comes_back_too() {
+    for name in ["slew_4dof", "slew_canadarm2"] {
+        let scenario = shipped(name);
+        let Maneuver::Slew(slew) = scenario.maneuver() else { unreachable!("a slew") };
+        let plan = plan(&scenario).trajectory;
+        let converging = Replanner::new(&scenario, &plan).unwrap();
+        let real_time = converging.clone().in_real_time(NonZeroU32::new(2).unwrap());
+        let node = &plan.nodes()[20];
+        let off = turned(node.attitude, 0.5);
+        let optimum = replanned(&mut converging.clone(), 20, node, off);
+        let replan = replanned(&mut real_time.clone(), 20, node, off);
+        assert!(optimum.converged && replan.iterations <= 2);
+        let above = replan.objective / optimum.objective - 1.0;
+        assert!(above.abs() < 0.01, "{name}: {above} above");
+        // What was told is what follows from the controls, by another model.
+        let end = flown(&scenario, node, off, &replan);
+        let miss_deg = attitude(&end).angle_to(&slew.target).to_degrees();
+        println!("{name}: {miss_deg:.5}°, {above:.1e} above the optimum");
+        assert!(miss_deg < 0.02, "{name}: {miss_deg}°");
+    }
+}
+
+/// Without time for one iteration the last plan stands, and the next replan is none the worse.
+#[test]
+fn a_deadline_that_is_over_leaves_the_last_plan() {
+    let scenario = shipped("slew_2dof");
+    let plan = plan(&scenario).trajectory;
+    let mut replanner = Replanner::new(&scenario, &plan).unwrap();
+    let node = &plan.nodes()[20];
+    let attitude = turned(node.attitude, 0.5);
+    let measured = Measured {
+        attitude,
+        joint_angles_rad: &node.joint_angles_rad,
+        joint_rates_rad_s: &node.joint_rates_rad_s,
+    };
+    let mut undisturbed = replanner.clone();
+    // Nor does it matter that one of them is prepared.
+    undisturbed.prepare(20).unwrap();
+    assert_eq!(replanner.replan(20, &measured, Some(Duration::ZERO)).unwrap(), None);
+    let after = replanned(&mut replanner, 20, node, attitude);
+    let expected = replanned(&mut undisturbed, 20, node, attitude);
+    assert_eq!(after.accelerations_rad_s2, expected.accelerations_rad_s2);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::pattern::NodePattern;
 use super::structure::Structure;
 
 /// One node's values as [`super::pattern::Sections`] lays them out.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Assembly {
     values: AlignedVec,
     /// Pattern of the last node: where its values stand all else is zero already.

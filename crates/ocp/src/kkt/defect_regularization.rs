@@ -8,7 +8,7 @@ use super::elimination::{Breakdown, Elimination};
 use super::lanes::{AlignedVec, add_rows, reset, vectors, vectors_mut, zeros};
 
 /// Elimination of next state and defect multiplier.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct DefectRegularization {
     /// √Δ of the scaled defect rows.
     roots: Vec<f64>,
@@ -18,7 +18,7 @@ pub(super) struct DefectRegularization {
 }
 
 /// Scratch of the factorisation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct DefectRegularizationWorkspace {
     matrix: AlignedVec,
     scaled: AlignedVec,

@@ -5,7 +5,7 @@ use super::lanes::{AlignedVec, reset, zeros};
 use super::pattern::NodePattern;
 
 /// How the unknowns delayed by the next node couple to its states and among themselves.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Delayed {
     pub count: usize,
     /// `count` padded rows over the next states.

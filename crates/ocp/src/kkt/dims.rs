@@ -116,6 +116,11 @@ impl SystemLayout {
         Self { nodes, order: inequality }
     }
 
+    /// Whether these are the sizes that it was made of.
+    pub fn has_dims(&self, dims: &StageDims) -> bool {
+        self.nodes.iter().map(|node| &node.dims).eq(&dims.nodes)
+    }
+
     /// Constraints of the problem.
     pub fn constraints(&self) -> usize {
         let rows =

@@ -31,7 +31,7 @@ pub(super) enum Breakdown {
 }
 
 /// Factor of a leading block: rows `[L R]`, pivots, and for each unknown who it is.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Elimination {
     /// Leading unknowns.
     pub size: usize,

@@ -14,7 +14,7 @@ use super::packed::pack;
 use super::structure::Structure;
 
 /// Scratch of the sweep.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct FactorWorkspace {
     assembly: Assembly,
     image: Image,

@@ -12,7 +12,7 @@ pub(super) struct Run {
 }
 
 /// What goes into one storage: runs, and positions that get another value on top.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct CopyPlan {
     pub runs: Vec<Run>,
     pub repeats: Vec<u32>,
@@ -24,7 +24,7 @@ pub(super) struct CopyPlan {
 /// How triplets come into a node's storage, shared by all nodes whose triplets come in the same
 /// order. A node's *sources* are triplet indices: for the assembly and then for the Jacobian, the
 /// first of each run, then one for each repeated value.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Gather {
     /// What each of the node's triplets couples, in triplet order.
     couplings: Vec<Coupling>,

@@ -13,7 +13,7 @@ use super::pattern::NodePattern;
 
 /// Hessian P of a cost to go: a full matrix with padded rows, with a vector of zeros before and
 /// after, so that vectors may be read across its ends.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct CostToGo {
     pub padded: AlignedVec,
 }
@@ -47,7 +47,7 @@ impl CostToGo {
 }
 
 /// `diag(P, Σ) J`.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Image {
     rows: AlignedVec,
     /// Pattern of the last node: where its values stand all else is zero already.

@@ -55,7 +55,7 @@ pub(super) struct ColumnEntry {
 
 /// Where the entries of a node's constraint rows are stored; columns are those of a row of the
 /// node's matrix.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct JacobianPattern {
     defects: usize,
     stride: usize,
@@ -73,7 +73,7 @@ pub(super) struct JacobianPattern {
 }
 
 /// What reaches into the columns of one vector; slots are those of its first column.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct VectorEntries {
     /// Slot, and row of the image as its first vector.
     rows: Vec<(usize, usize)>,

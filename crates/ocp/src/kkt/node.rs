@@ -7,7 +7,7 @@ use super::packed::packed_length;
 use super::pattern::NodePattern;
 
 /// Factor of one node and of the defect that leads from it to the next.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct NodeFactor {
     /// Hessian P of the cost to go in the node's states: all later nodes eliminated. Packed.
     pub value: AlignedVec,
@@ -37,6 +37,19 @@ impl NodeFactor {
             inequalities: vec![InequalityPivot::default(); shape.inequalities],
             regularization: None,
         }
+    }
+
+    /// The same room for a node of this pattern, if it is as large.
+    pub fn reused(mut self, pattern: &NodePattern, lanes: usize) -> Option<Self> {
+        let shape = pattern.shape;
+        let fits = self.value.len() == packed_length(shape.states, lanes)
+            && self.jacobian.len() == pattern.jacobian.length
+            && self.defect_scales.len() == shape.defects
+            && self.inequalities.len() == shape.inequalities;
+        // What stands between the entries of a pattern is zero.
+        self.jacobian.fill(0.0);
+        self.leading.shape(shape.leading(), pattern.split, pattern.stride);
+        fits.then_some(self)
     }
 }
 

@@ -57,7 +57,7 @@ pub(super) enum Position {
 }
 
 /// Structure of one node: shape, sparsity of its constraint rows, and where values go.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct NodePattern {
     pub shape: NodeShape,
     /// First state column in a row of the node's matrix.

@@ -11,7 +11,7 @@ use super::pattern::NodePattern;
 use super::structure::Structure;
 
 /// Scratch of the sweeps.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct SolveWorkspace {
     /// Unknowns of a node as in a row of its matrix: leading, then states, padded.
     local: AlignedVec,

@@ -16,7 +16,7 @@ const PIVOT_TOLERANCE: f64 = 1e-8;
 const STRICTEST_PIVOT_TOLERANCE: f64 = 1e-2;
 
 /// Stage-structured LDLᵀ of an augmented system: see the [module](super).
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StageKkt {
     layout: SystemLayout,
     lanes: Lanes,
@@ -42,6 +42,15 @@ impl StageKkt {
     /// The same without SIMD: what the lanes are tested against.
     pub fn scalar(dims: &StageDims) -> Self {
         Self::with_lanes(dims, Lanes::Scalar)
+    }
+
+    /// The same solver for problems of these sizes: it stays as it is where they are its own.
+    pub(crate) fn resized(mut self, dims: &StageDims) -> Self {
+        if !self.layout.has_dims(dims) {
+            self.layout = SystemLayout::new(dims);
+            self.rows.clear();
+        }
+        self
     }
 
     /// Gives up a factorisation as soon as there are more negative eigenvalues than constraints,
@@ -93,11 +102,18 @@ impl StageKkt {
         self.structure = None;
         let structure = Structure::analyse(&self.layout, order, rows, columns, self.lanes.width())?;
         let lanes = self.lanes.width();
-        let node = |k| NodeFactor::new(structure.pattern(k), lanes);
+        let mut before = std::mem::take(&mut self.nodes).into_iter();
+        let node = |k| {
+            let pattern = structure.pattern(k);
+            let reused = before.next().and_then(|node| node.reused(pattern, lanes));
+            reused.unwrap_or_else(|| NodeFactor::new(pattern, lanes))
+        };
         self.nodes = (0..self.layout.nodes.len()).map(node).collect();
         self.work = FactorWorkspace::default();
-        self.rows = rows.to_vec();
-        self.columns = columns.to_vec();
+        self.rows.clear();
+        self.rows.extend_from_slice(rows);
+        self.columns.clear();
+        self.columns.extend_from_slice(columns);
         self.structure = Some(structure);
         Ok(())
     }

@@ -59,7 +59,7 @@ pub enum KktStructureError {
 }
 
 /// Where each node's values come from and go to.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Structure {
     pub patterns: Vec<NodePattern>,
     pub gathers: Vec<Gather>,
