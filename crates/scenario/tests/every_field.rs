@@ -80,6 +80,7 @@ fn arm() -> Value {
             },
             { "axis": [1, 0, 0], "momentum_max_n_m_s": 1.0, "torque_max_n_m": 0.1 }
         ],
+        "robustness": { "mass_percent": 10, "weight": 2 },
         "environment": {
             "gravity_gradient": {
                 "altitude_km": 400.0,
