@@ -58,13 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plans: Vec<ComparedPlan<'_>> = names
         .iter()
         .zip(verified.iter().zip(&profiles))
-        .map(|(name, (Verified { solution, scenario, trajectory }, profile))| ComparedPlan {
-            name,
-            scenario,
-            solution,
-            trajectory,
-            profile,
-        })
+        .map(|(name, (plan, profile))| ComparedPlan::new(name, plan, profile))
         .collect();
     let page = match &folder {
         Some(folder) => Some(folder.write(COMPARE_FILE, compare_html(&plans).as_bytes())?),

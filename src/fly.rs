@@ -20,7 +20,6 @@ mod table;
 
 pub use arguments::Arguments;
 use arguments::{Mode, Spacecraft};
-use first_flight::Plan;
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -119,7 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// One flight of a spacecraft that answers on standard input.
-fn fly_over_pipes(plan: &Plan, settings: &Settings) -> Result<Flight, Failure> {
+fn fly_over_pipes(plan: &Verified, settings: &Settings) -> Result<Flight, Failure> {
     if settings.faults != Faults::default() || settings.drives != JointDrives::default() {
         return Err(Failure::Usage(
             "--plant stdio: what its joints do and what fails is up to that spacecraft; leave out --joint-lag-s, \
@@ -132,13 +131,13 @@ fn fly_over_pipes(plan: &Plan, settings: &Settings) -> Result<Flight, Failure> {
 }
 
 /// The plan in a folder, or that of a scenario, and what watches for an interrupt.
-fn plan_and_interrupt(input: &Path) -> Result<(Plan, Interrupt), Failure> {
+fn plan_and_interrupt(input: &Path) -> Result<(Verified, Interrupt), Failure> {
     if input.join(SOLUTION_FILE).exists() {
-        let Verified { solution, scenario, trajectory } = plan_folder::read(input)?;
-        Failure::of_verification(&solution).map_or(Ok(()), Err)?;
+        let plan = plan_folder::read(input)?;
+        Failure::of_verification(&plan.solution).map_or(Ok(()), Err)?;
         // Replans are solved too.
         optimizer::load()?;
-        return Ok((Plan { scenario, trajectory, solution }, Interrupt::watch()));
+        return Ok((plan, Interrupt::watch()));
     }
     let scenario = scenario_input::read(input)?;
     let interrupt = Interrupt::watch();
@@ -151,5 +150,5 @@ fn plan_and_interrupt(input: &Path) -> Result<(Plan, Interrupt), Failure> {
     let mut planner = Planner::new().program(build::VERSION);
     let Planned { solution, trajectory } = planner.plan(&scenario, &mut on_iteration)?;
     crate::solve::conclude(&solution)?;
-    Ok((Plan { scenario, trajectory, solution }, interrupt))
+    Ok((Verified { solution, scenario, trajectory }, interrupt))
 }

@@ -158,30 +158,15 @@ impl Guidance {
     /// Plans the rest anew and says how long it took; none where it is missed.
     fn replan(&mut self, step: usize, measured: &Measured<'_>) -> Option<Duration> {
         let started = Instant::now();
-        let mut replanner = self.replanner.as_ref()?;
+        let replanner = self.replanner.as_mut()?;
         let mut here = *measured;
-        let adapted: Option<Replanner>;
-        if let Some(Masses { estimate, taken }) = &mut self.masses {
-            // Masses that no system can have teach nothing.
-            if estimate.observe(self.times_s[step], measured).is_ok() {
-                here.attitude = estimate.attitude();
-                let factors = estimate.factors();
-                if differ(&factors, taken) {
-                    adapted = estimate
-                        .scenario()
-                        .ok()
-                        .and_then(|scenario| replanner.adapted(&scenario).ok());
-                    *taken = factors;
-                    self.replanner = adapted.or_else(|| self.replanner.take());
-                    replanner = self.replanner.as_ref()?;
-                }
-            }
+        if let Some(masses) = &mut self.masses {
+            masses.take_in(self.times_s[step], &mut here, replanner);
         }
         let first = step + self.delay;
         let there = replanner.ahead(step, &here, &self.commands[step..first]).pop()?;
         let there = there.as_measured();
         let deadline = self.deadline.map(|deadline| deadline.saturating_sub(started.elapsed()));
-        let replanner = self.replanner.as_mut()?;
         let replan = replanner.replan(first, &there, deadline).ok()??;
         self.commands.splice(first.., replan.accelerations_rad_s2);
         if let Some(feedback) = &mut self.feedback {
@@ -190,6 +175,27 @@ impl Guidance {
             feedback.follow(first, &replanner.ahead(first, &there, commands), commands);
         }
         Some(started.elapsed())
+    }
+}
+
+impl Masses {
+    /// Takes in what is measured at a time, s: its attitude becomes the estimated one, and the replanner's masses do where
+    /// that is news. Masses that no system can have teach nothing.
+    fn take_in(&mut self, time_s: f64, measured: &mut Measured<'_>, replanner: &mut Replanner) {
+        if self.estimate.observe(time_s, measured).is_err() {
+            return;
+        }
+        measured.attitude = self.estimate.attitude();
+        let factors = self.estimate.factors();
+        if !differ(&factors, &self.taken) {
+            return;
+        }
+        self.taken = factors;
+        if let Ok(scenario) = self.estimate.scenario()
+            && let Ok(adapted) = replanner.adapted(&scenario)
+        {
+            *replanner = adapted;
+        }
     }
 }
 

@@ -20,6 +20,11 @@ fn fly(scenario: &Scenario, plan: &Trajectory, settings: Settings, count: usize)
     Campaign::new(scenario, plan, settings).unwrap().fly(count, &|| false)
 }
 
+/// The median errors of what is flown, and open loop.
+fn medians_deg(summary: &Summary) -> [f64; 2] {
+    [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap())
+}
+
 const AS_PLANNED: Settings = Settings {
     spreads: Spreads { masses: 0.0, inertias: 0.0, centers_m: 0.0, mount_m: 0.0 },
     drives: JointDrives { lag_s: 0.0, noise: 0.0 },
@@ -47,8 +52,7 @@ fn replans_bring_other_plants_to_the_target() {
     let (scenario, plan) = planned("slew_4dof");
     let settings = Settings { period_s: 1.0, ..Settings::default() };
     let summary = Summary::of(&fly(&scenario, &plan, settings, 8));
-    let [replanned, open_loop] =
-        [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
+    let [replanned, open_loop] = medians_deg(&summary);
     println!("{summary:?}");
     assert_eq!((summary.completed, summary.missed_replans), (8, 0));
     assert!(open_loop > 0.1, "{open_loop}° open loop shows nothing");
@@ -188,8 +192,7 @@ fn lags_and_delays_are_mended_by_replans() {
         ..Settings::default()
     };
     let summary = Summary::of(&fly(&scenario, &plan, settings, 6));
-    let [flown, open_loop] =
-        [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
+    let [flown, open_loop] = medians_deg(&summary);
     assert!(flown < 0.2 * open_loop, "{flown}° of {open_loop}°");
 }
 
@@ -216,8 +219,7 @@ fn feedback_alone_brings_the_median_down_fivefold() {
     let (scenario, plan) = planned("slew_4dof");
     let settings = Settings { control: Control::Feedback, ..Settings::default() };
     let summary = Summary::of(&fly(&scenario, &plan, settings, 12));
-    let [flown, open_loop] =
-        [summary.flown, summary.open_loop].map(|ends| ends.final_error_deg.median.unwrap());
+    let [flown, open_loop] = medians_deg(&summary);
     println!("{summary:?}");
     assert!(flown < 0.2 * open_loop, "{flown}° of {open_loop}°");
 }

@@ -7,6 +7,7 @@ use crate::decision_layout::DecisionLayout;
 use crate::evaluator::NodeWorkspace;
 use crate::multiple_shooting::MultipleShooting;
 use crate::node_function::NodeFunction;
+use crate::shooting_workspace::ShootingWorkspace;
 use crate::stage_functions::StageFunctions;
 use crate::structure::Scatter;
 
@@ -35,7 +36,8 @@ impl MultipleShooting<'_> {
     /// Evaluates ∂F/∂(x, u) of all steps at `z` into `values` (if any) and fills the store.
     fn evaluate_steps(&mut self, z: &[f64], mut values: Option<&mut [f64]>) {
         self.start_from(z);
-        let Self { functions, layout, initial, jacobian, evaluator, store, grid, .. } = self;
+        let Self { functions, layout, initial, grid, workspace, .. } = self;
+        let ShootingWorkspace { jacobian, evaluator, store, .. } = workspace;
         let rows = Rows { layout: *layout, initial, vector: z };
         let blocks = Block::cover(grid.steps());
         for (block, mut stored) in blocks.zip(store.blocks_mut()) {
@@ -53,8 +55,8 @@ impl MultipleShooting<'_> {
                 scatter(values, &jacobian.step, entry, |index| lanes(computed, index)[lane]);
             }
         }
-        self.stored_at.clear();
-        self.stored_at.extend_from_slice(z);
+        self.workspace.stored_at.clear();
+        self.workspace.stored_at.extend_from_slice(z);
     }
 }
 
@@ -165,11 +167,11 @@ impl Problem for MultipleShooting<'_> {
     }
 
     fn jacobian_structure(&self) -> TripletStructure {
-        self.jacobian.triplets(self.functions, &self.layout)
+        self.workspace.jacobian.triplets(self.functions, &self.layout)
     }
 
     fn hessian_structure(&self) -> TripletStructure {
-        self.hessian.triplets(self.functions, &self.layout)
+        self.workspace.hessian.triplets(self.functions, &self.layout)
     }
 
     fn objective(&mut self, z: &[f64], _new_x: bool) -> Result<f64, EvaluationError> {
@@ -177,7 +179,7 @@ impl Problem for MultipleShooting<'_> {
         self.start_from(z);
         let rows = Rows { layout: self.layout, initial: &self.initial, vector: z };
         let function = &self.functions.running.value;
-        let workspace = &mut self.evaluator.running.value;
+        let workspace = &mut self.workspace.evaluator.running.value;
         let mut running = 0.0;
         for block in Block::cover(steps) {
             load_running(workspace, self.functions, block, rows, self.grid.step_s());
@@ -185,7 +187,7 @@ impl Problem for MultipleShooting<'_> {
             let costs = lanes(workspace.output(0), 0);
             running += block.items().map(|(lane, _)| costs[lane]).sum::<f64>();
         }
-        let workspace = &mut self.evaluator.terminal_cost.value;
+        let workspace = &mut self.workspace.evaluator.terminal_cost.value;
         load_terminal(workspace, rows.state(steps));
         self.functions.terminal_cost.value.evaluate_block(workspace);
         Ok(self.grid.running_weight() * running + workspace.output(0)[0])
@@ -203,7 +205,7 @@ impl Problem for MultipleShooting<'_> {
         let rows = Rows { layout, initial: &self.initial, vector: z };
         gradient.fill(0.0);
         let running = &self.functions.running;
-        let workspace = &mut self.evaluator.running.first;
+        let workspace = &mut self.workspace.evaluator.running.first;
         for block in Block::cover(steps) {
             load_running(workspace, self.functions, block, rows, self.grid.step_s());
             running.first.evaluate_block(workspace);
@@ -221,7 +223,7 @@ impl Problem for MultipleShooting<'_> {
             }
         }
         let terminal = &self.functions.terminal_cost;
-        let workspace = &mut self.evaluator.terminal_cost.first;
+        let workspace = &mut self.workspace.evaluator.terminal_cost.first;
         load_terminal(workspace, rows.state(steps));
         terminal.first.evaluate_block(workspace);
         for (_, column, value) in terminal.jacobian.at_lane(workspace.output(1), 0) {
@@ -239,7 +241,7 @@ impl Problem for MultipleShooting<'_> {
         let (steps, functions, layout) = (self.steps(), self.functions, self.layout);
         self.start_from(z);
         let rows = Rows { layout, initial: &self.initial, vector: z };
-        let path = &mut self.evaluator.path.value;
+        let path = &mut self.workspace.evaluator.path.value;
         for block in Block::cover(steps) {
             block.load(path.input_mut(0), functions.states, |k| rows.state(k + 1));
             functions.path.value.evaluate_block(path);
@@ -251,7 +253,7 @@ impl Problem for MultipleShooting<'_> {
         }
         for block in Block::cover(steps) {
             let h = self.grid.step_s();
-            let reached = self.evaluator.step_values(
+            let reached = self.workspace.evaluator.step_values(
                 functions,
                 block,
                 h,
@@ -266,7 +268,7 @@ impl Problem for MultipleShooting<'_> {
             }
         }
         if !functions.stage_bounds.is_empty() {
-            let stage = &mut self.evaluator.stage.value;
+            let stage = &mut self.workspace.evaluator.stage.value;
             for block in Block::cover(steps) {
                 load_stage(stage, functions, block, rows, self.grid.step_s());
                 functions.stage.value.evaluate_block(stage);
@@ -277,7 +279,7 @@ impl Problem for MultipleShooting<'_> {
                 }
             }
         }
-        let terminal = &mut self.evaluator.terminal.value;
+        let terminal = &mut self.workspace.evaluator.terminal.value;
         load_terminal(terminal, rows.state(steps));
         functions.terminal.value.evaluate_block(terminal);
         for (index, row) in layout.terminal().enumerate() {
@@ -294,7 +296,8 @@ impl Problem for MultipleShooting<'_> {
     ) -> Result<(), EvaluationError> {
         values.fill(0.0);
         self.evaluate_steps(z, Some(values));
-        let Self { functions, layout, initial, jacobian, evaluator, grid, .. } = self;
+        let Self { functions, layout, initial, grid, workspace, .. } = self;
+        let ShootingWorkspace { jacobian, evaluator, .. } = workspace;
         let steps = layout.dimensions().steps;
         let rows = Rows { layout: *layout, initial, vector: z };
         for block in Block::cover(steps) {
@@ -338,12 +341,13 @@ impl Problem for MultipleShooting<'_> {
         _new_multipliers: bool,
         values: &mut [f64],
     ) -> Result<(), EvaluationError> {
-        if self.stored_at != z {
+        if self.workspace.stored_at != z {
             self.evaluate_steps(z, None);
         }
         values.fill(0.0);
         self.start_from(z);
-        let Self { functions, layout, initial, hessian, evaluator, store, grid, .. } = self;
+        let Self { functions, layout, initial, grid, workspace, .. } = self;
+        let ShootingWorkspace { hessian, evaluator, store, .. } = workspace;
         let steps = grid.steps();
         let rows = Rows { layout: *layout, initial, vector: z };
         let running_factor = objective_factor * grid.running_weight();

@@ -7,6 +7,7 @@ use crate::component_bounds::ComponentBounds;
 use crate::evaluation::load_terminal;
 use crate::multiple_shooting::MultipleShooting;
 use crate::primal_dual_point::PrimalDualPoint;
+use crate::shooting_workspace::ShootingWorkspace;
 
 /// Passes over the steps after which gaps stay as they are.
 const PASSES: usize = 10;
@@ -47,8 +48,9 @@ impl MultipleShooting<'_> {
     /// One pass; the largest gap before it. A block of steps starts where the last one has been moved to.
     fn narrow_gaps(&mut self, z: &mut [f64]) -> f64 {
         self.start_from(z);
-        self.stored_at.clear();
-        let Self { functions, layout, initial, evaluator, store, grid, .. } = self;
+        self.workspace.stored_at.clear();
+        let Self { functions, layout, initial, grid, workspace, .. } = self;
+        let ShootingWorkspace { evaluator, store, .. } = workspace;
         let states = functions.states;
         let (mut largest, mut moved, mut next) = (0.0_f64, vec![0.0; states], vec![0.0; states]);
         for (block, mut stored) in Block::cover(grid.steps()).zip(store.blocks_mut()) {
@@ -109,7 +111,7 @@ impl MultipleShooting<'_> {
         keeps(&functions.terminal_bounds, &rows[layout.terminal()]);
         let gaps = (0..steps).flat_map(|step| &rows[layout.defect(step)]);
         violation = gaps.fold(violation, |most, gap| most.max(gap.abs()));
-        let workspace = &mut self.evaluator.terminal_cost.value;
+        let workspace = &mut self.workspace.evaluator.terminal_cost.value;
         load_terminal(workspace, &point.z[layout.state(steps)]);
         functions.terminal_cost.value.evaluate_block(workspace);
         MotionOutcome { objective, terminal_cost: workspace.output(0)[0], violation }

@@ -1,12 +1,8 @@
 use crate::decision_layout::{DecisionLayout, ShootingDimensions};
 use crate::error::OcpError;
-use crate::evaluator::Evaluator;
 use crate::grid::Grid;
-use crate::kkt::StageKkt;
 use crate::shooting_workspace::ShootingWorkspace;
 use crate::stage_functions::StageFunctions;
-use crate::stage_store::StageStore;
-use crate::structure::{HessianStructure, JacobianStructure};
 
 /// A control problem on a grid, as the sparse nonlinear program that Ipopt solves. See [`DecisionLayout`]
 /// for the order of its variables and constraints.
@@ -17,14 +13,7 @@ pub struct MultipleShooting<'f> {
     /// x_0, passive states left out; its free entries are those of the last point.
     pub(crate) initial: Vec<f64>,
     pub(crate) full_initial: Vec<f64>,
-    pub(crate) jacobian: JacobianStructure,
-    pub(crate) hessian: HessianStructure,
-    pub(crate) evaluator: Evaluator,
-    pub(crate) store: StageStore,
-    /// The decision vector at which `store` was filled.
-    pub(crate) stored_at: Vec<f64>,
-    /// What solved the last system by stages: it knows the structure.
-    pub(crate) stages: Option<StageKkt>,
+    pub(crate) workspace: ShootingWorkspace,
 }
 
 impl<'f> MultipleShooting<'f> {
@@ -70,27 +59,19 @@ impl<'f> MultipleShooting<'f> {
             terminal: functions.terminal_bounds.len(),
             steps: grid.steps(),
         };
-        let ShootingWorkspace { jacobian, hessian, evaluator, store, stored_at, stages } =
-            workspace.for_steps(grid.steps());
         Ok(Self {
             functions,
             grid,
             layout: DecisionLayout::new(dimensions),
             initial: functions.active.iter().map(|&i| initial[i]).collect(),
             full_initial: initial.to_vec(),
-            jacobian,
-            hessian,
-            evaluator,
-            store,
-            stored_at,
-            stages,
+            workspace: workspace.for_steps(grid.steps()),
         })
     }
 
     /// What another program of the same functions can go on with.
     pub fn into_workspace(self) -> ShootingWorkspace {
-        let Self { jacobian, hessian, evaluator, store, stored_at, stages, .. } = self;
-        ShootingWorkspace { jacobian, hessian, evaluator, store, stored_at, stages }
+        self.workspace
     }
 
     /// Where everything lives in the vectors.

@@ -38,7 +38,7 @@ impl MultipleShooting<'_> {
                 let mut stages = self.stage_solver();
                 let solution =
                     self.solve_in_stages(&start, settings, &mut stages, &mut on_iteration);
-                self.stages = Some(stages);
+                self.workspace.stages = Some(stages);
                 solution?
             }
         };
@@ -59,14 +59,14 @@ impl MultipleShooting<'_> {
         stages
             .analyse(matrix.order(), matrix.rows(), matrix.columns())
             .map_err(SolveError::LinearSolver)?;
-        self.stages = Some(stages);
+        self.workspace.stages = Some(stages);
         Ok(())
     }
 
     /// The stage solver of the last solve, or a new one.
     fn stage_solver(&mut self) -> StageKkt {
         let dims = self.stage_dims();
-        match self.stages.take() {
+        match self.workspace.stages.take() {
             Some(known) => known.resized(&dims),
             None => StageKkt::new(&dims).stop_at_excess(),
         }

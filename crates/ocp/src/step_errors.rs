@@ -16,7 +16,8 @@ impl MultipleShooting<'_> {
     /// error (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.4).
     pub fn step_errors(&mut self, point: &PrimalDualPoint, substeps: NonZeroUsize) -> Samples {
         self.start_from(&point.z);
-        let Self { functions, layout, initial, evaluator, grid, .. } = self;
+        let Self { functions, layout, initial, workspace, grid, .. } = self;
+        let evaluator = &mut workspace.evaluator;
         let (h, z) = (grid.step_s(), &point.z);
         let state = |k: usize| if k == 0 { &initial[..] } else { &z[layout.state(k)] };
         let control = |k: usize| &z[layout.control(k)];

@@ -41,7 +41,7 @@ const REMEDY_TIME: Duration = Duration::from_secs(1);
 ///
 /// use righting_ocp::Control;
 /// use righting_planner::Planner;
-/// use righting_scenario::{Maneuver, Scenario};
+/// use righting_scenario::Scenario;
 ///
 /// let scenario = Scenario::read(Path::new("../../scenarios/slew_2dof.json"))?;
 /// let mut planner = Planner::new().threads(NonZeroUsize::MIN).time_limit(Duration::from_secs(60));

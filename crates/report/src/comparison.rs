@@ -5,6 +5,7 @@ use righting_analysis::power::Accounting;
 use righting_results::{LimitRecord, Solution, Trajectory};
 use righting_scenario::Scenario;
 use righting_scenario::file::ManeuverType;
+use righting_verifier::Verified;
 
 use crate::asked;
 use crate::number::short;
@@ -27,6 +28,12 @@ pub struct ComparedPlan<'a> {
 }
 
 impl<'a> ComparedPlan<'a> {
+    /// A plan of that name.
+    pub fn new(name: &'a str, plan: &'a Verified, profile: &'a PowerProfile) -> Self {
+        let Verified { solution, scenario, trajectory } = plan;
+        Self { name, scenario, solution, trajectory, profile }
+    }
+
     /// The largest torque of any joint in magnitude, N m, and which joint gives it, counted from zero.
     pub fn peak_torque_n_m(&self) -> (f64, usize) {
         let torques = self.profile.peak_torques_n_m();

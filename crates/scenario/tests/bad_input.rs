@@ -6,7 +6,7 @@ use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
 use righting_scenario::{Error, Scenario, SystemDescription};
-use righting_test_support::scenarios;
+use righting_test_support::{path_of, scenarios};
 use serde_json::{Value, json};
 
 const FILE: &str = "plan.json";
@@ -36,19 +36,6 @@ fn assert_complains(text: &str, path: &str, keyword: &str) {
     let rest = message.strip_prefix(&format!("{path}: "));
     let rest = rest.unwrap_or_else(|| panic!("`{message}` is not about `{path}`"));
     assert!(rest.contains(keyword), "`{message}` does not say `{keyword}`");
-}
-
-/// `/system/links/3/a_m` as `system.links[3].a_m`.
-fn path_of(pointer: &str) -> String {
-    let mut path = String::new();
-    for step in pointer.split('/').skip(1) {
-        match step.parse::<usize>() {
-            Ok(index) => path.push_str(&format!("[{index}]")),
-            Err(_) if path.is_empty() => path.push_str(step),
-            Err(_) => path.push_str(&format!(".{step}")),
-        }
-    }
-    path
 }
 
 fn with(pointer: &str, value: Value) -> Value {

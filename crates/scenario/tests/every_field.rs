@@ -6,6 +6,7 @@ use std::path::Path;
 
 use righting_scenario::Scenario;
 use righting_scenario::schema::scenario_schema;
+use righting_test_support::path_of;
 use serde_json::{Map, Value, json};
 
 /// Fields that go with a URDF file, and that stand in no file with the others.
@@ -237,14 +238,7 @@ fn assert_refused(scenario: &Value, pointer: &str, value: &Value) {
         Ok(_) => panic!("{pointer}: {value} is accepted"),
         Err(error) => error.to_string(),
     };
-    let mut path = String::new();
-    for step in pointer.split('/').skip(1) {
-        match step.parse::<usize>() {
-            Ok(index) => path.push_str(&format!("[{index}]")),
-            Err(_) if path.is_empty() => path.push_str(step),
-            Err(_) => path.push_str(&format!(".{step}")),
-        }
-    }
+    let path = path_of(pointer);
     assert!(message.starts_with(&format!("plan.json: {path}")), "{pointer} = {value}: {message}");
     assert!(!message.contains('\n'), "{message}");
 }

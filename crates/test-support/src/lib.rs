@@ -39,6 +39,19 @@ pub fn varied(scenario: &Scenario, change: impl FnOnce(&mut file::Scenario)) -> 
     scenario.varied(change).unwrap()
 }
 
+/// `/system/links/3/a_m` as `system.links[3].a_m`.
+pub fn path_of(pointer: &str) -> String {
+    let mut path = String::new();
+    for step in pointer.split('/').skip(1) {
+        match step.parse::<usize>() {
+            Ok(index) => path.push_str(&format!("[{index}]")),
+            Err(_) if path.is_empty() => path.push_str(step),
+            Err(_) => path.push_str(&format!(".{step}")),
+        }
+    }
+    path
+}
+
 /// Grid, outcome and iterations of every attempt, in order.
 pub fn solves(attempts: &[AttemptRecord]) -> Vec<(usize, Option<Status>, usize)> {
     let attempts = attempts.iter();

@@ -1,15 +1,15 @@
 //! The last solve of a plan that shall not depend on masses more than it must.
 
-use righting_multibody::ModelError;
 use righting_ocp::{
-    InitialGuess, MultipleShooting, OcpError, OcpSolution, OcpStart, RungeKutta4, Samples,
-    StageFunctions, close_guess_settings,
+    InitialGuess, MultipleShooting, OcpSolution, OcpStart, RungeKutta4, Samples, StageFunctions,
+    close_guess_settings,
 };
 use righting_scenario::Robustness;
 use righting_scenario::file::Formulation;
 
 use super::{Search, settings, stoppable};
 use crate::formulation::{FormulatedManeuver, Spread};
+use crate::planner::PlanError;
 
 /// What masses that are not known exactly do to the attitude at the end of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,22 +23,13 @@ pub(crate) struct SpreadOfEnd {
     pub(crate) cost_without: f64,
 }
 
-/// Why there is no robust plan.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum RobustError {
-    #[error(transparent)]
-    Ocp(#[from] OcpError),
-    #[error(transparent)]
-    Model(#[from] ModelError),
-}
-
 impl Search<'_> {
     /// A solution that trades effort for a smaller spread of the end, from one that does not; none if the solve fails.
     pub(super) fn made_robust(
         &mut self,
         robustness: Robustness,
         solution: &OcpSolution,
-    ) -> Result<Option<(OcpSolution, SpreadOfEnd)>, RobustError> {
+    ) -> Result<Option<(OcpSolution, SpreadOfEnd)>, PlanError> {
         let spread = Spread::new(self.scenario, robustness)?;
         let guess = self.with_spread(&spread, &solution.states, &solution.controls);
         let variance = |states: &Samples| {
