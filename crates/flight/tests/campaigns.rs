@@ -7,13 +7,19 @@ use righting_flight::{
 use righting_planner::Planner;
 use righting_results::Trajectory;
 use righting_scenario::Scenario;
-use righting_test_support::shipped;
+use righting_scenario::file::{Environment, GravityGradient};
+use righting_test_support::{shipped, varied};
 
 fn planned(name: &str) -> (Scenario, Trajectory) {
     let scenario = shipped(name);
-    let planned = Planner::new().plan(&scenario, &mut |_| righting_ocp::Control::Continue).unwrap();
+    let plan = plan_of(&scenario);
+    (scenario, plan)
+}
+
+fn plan_of(scenario: &Scenario) -> Trajectory {
+    let planned = Planner::new().plan(scenario, &mut |_| righting_ocp::Control::Continue).unwrap();
     assert!(planned.solution.verification.passed);
-    (scenario, planned.trajectory)
+    planned.trajectory
 }
 
 fn fly(scenario: &Scenario, plan: &Trajectory, settings: Settings, count: usize) -> Vec<Flight> {
@@ -106,6 +112,31 @@ fn masses_that_the_flight_shows_bring_it_nearer() {
         with_shown_masses < 0.2 * with_plan_masses,
         "{with_shown_masses}° of {with_plan_masses}°"
     );
+}
+
+/// A plant off so far, with noise and gravity gradient, that a replan from the last multipliers fails: the motion
+/// without them is solved to its end, and no replan is missed.
+#[test]
+fn replans_of_a_large_slew_go_on() {
+    let gradient = GravityGradient { altitude_km: 400.0, orbit_attitude: None, elements: None };
+    let scenario = varied(&shipped("slew75_4dof"), |file| {
+        file.environment =
+            Some(Environment { gravity_gradient: Some(gradient), ..Environment::default() });
+    });
+    let plan = plan_of(&scenario);
+    let settings = Settings {
+        sensors: Sensors {
+            attitude_rad: 0.005_f64.to_radians(),
+            joint_angle_rad: 0.005_f64.to_radians(),
+            joint_rate_rad_s: 0.002_f64.to_radians(),
+        },
+        ..Settings::default()
+    };
+    let flight = Campaign::new(&scenario, &plan, settings).unwrap().flight(2);
+    let [flown, open_loop] =
+        [flight.flown, flight.open_loop.unwrap()].map(|end| end.error_rad.to_degrees());
+    assert_eq!((flight.log.replans.len(), flight.log.missed), (119, 0));
+    assert!(open_loop > 5.0 && flown < 0.05, "{flown}° of {open_loop}°");
 }
 
 /// What a plan made with the true masses leaves is the least; replans come within 2 % of it.

@@ -27,6 +27,8 @@ const TOLERANCE: f64 = 11.0;
 const FEASIBILITY: f64 = 1e-6;
 /// Iterations after which a replan is given up: most need three.
 const ITERATIONS: u32 = 40;
+/// The same of one from a motion without multipliers.
+const ITERATIONS_FROM_MOTION: u32 = 300;
 
 /// The largest barrier parameter that costs a plan little, and the solution there.
 ///
@@ -101,7 +103,9 @@ pub(super) fn warm(settings: &Settings, barrier: f64) -> Settings {
 
 /// Settings of a start from a motion.
 pub(super) fn from_motion(settings: &Settings, barrier: f64) -> Settings {
-    ended_at(close_guess_settings(settings), barrier)
+    let mut settings = ended_at(close_guess_settings(settings), barrier);
+    settings.ipopt.max_iterations = ITERATIONS_FROM_MOTION;
+    settings
 }
 
 fn ended_at(mut settings: Settings, barrier: f64) -> Settings {
